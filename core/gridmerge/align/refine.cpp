@@ -1,0 +1,195 @@
+#include "gridmerge/align/refine.hpp"
+
+#include <ceres/cost_function.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace gridmerge {
+namespace {
+
+struct FieldSample {
+  double distance_m;
+  double slope_x;  ///< per metre, local frame of the field
+  double slope_y;
+};
+
+/// The distance to the nearest wall, bilinear between cell centres; `reach_m` and flat outside.
+FieldSample sample(const MapLevel& level, double x_m, double y_m, double reach_m) {
+  const double u = (x_m - level.lower_left.x_m) / level.resolution_m - 0.5;
+  const double v = (y_m - level.lower_left.y_m) / level.resolution_m - 0.5;
+  const int column = static_cast<int>(std::floor(u));
+  const int row = static_cast<int>(std::floor(v));
+  if (column < 0 || row < 0 || column + 1 >= level.width || row + 1 >= level.height) {
+    return {reach_m, 0, 0};
+  }
+  const double a = u - column;
+  const double b = v - row;
+  const float* low = &level.wall_distance_m[level.offset(column, row)];
+  const float* high = low + level.width;
+  const double d = (1 - b) * ((1 - a) * low[0] + a * low[1]) + b * ((1 - a) * high[0] + a * high[1]);
+  if (d >= reach_m) {
+    return {reach_m, 0, 0};
+  }
+  const double du = (1 - b) * (low[1] - low[0]) + b * (high[1] - high[0]);
+  const double dv = (1 - a) * (high[0] - low[0]) + a * (high[1] - low[1]);
+  return {d, du / level.resolution_m, dv / level.resolution_m};
+}
+
+/// At most `max_points` wall points, evenly taken.
+std::vector<Point2> some_walls(const PreparedMap& map, int max_points) {
+  const auto limit = static_cast<std::size_t>(max_points);
+  const std::size_t step = std::max<std::size_t>(1, (map.walls().size() + limit - 1) / limit);
+  std::vector<Point2> points;
+  for (std::size_t i = 0; i < map.walls().size(); i += step) {
+    points.push_back({map.walls()[i].at.x_m, map.walls()[i].at.y_m});
+  }
+  return points;
+}
+
+/// Residuals of all points of both maps as a function of the local pose (x, y, theta).
+class WallDistances final : public ceres::CostFunction {
+ public:
+  WallDistances(const PreparedMap& target, const PreparedMap& source, const RefineOptions& options)
+      : target_(target.level(0)),
+        source_(source.level(0)),
+        options_(options),
+        target_points_(some_walls(target, options.max_points)),
+        source_points_(some_walls(source, options.max_points)) {
+    set_num_residuals(static_cast<int>(target_points_.size() + source_points_.size()));
+    mutable_parameter_block_sizes()->push_back(3);
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const double* p = parameters[0];
+    const double c = std::cos(p[2]);
+    const double s = std::sin(p[2]);
+    double* jacobian = jacobians != nullptr ? jacobians[0] : nullptr;
+    for (const Point2& q : source_points_) {
+      const double rx = c * q.x_m - s * q.y_m;
+      const double ry = s * q.x_m + c * q.y_m;
+      const FieldSample f = sample(target_, rx + p[0], ry + p[1], options_.reach_m);
+      put(f, f.slope_x, f.slope_y, -f.slope_x * ry + f.slope_y * rx, residuals++, jacobian);
+    }
+    for (const Point2& q : target_points_) {
+      const double dx = q.x_m - p[0];
+      const double dy = q.y_m - p[1];
+      const double bx = c * dx + s * dy;  // the point in the source's frame
+      const double by = -s * dx + c * dy;
+      const FieldSample f = sample(source_, bx, by, options_.reach_m);
+      put(f, -c * f.slope_x + s * f.slope_y, -s * f.slope_x - c * f.slope_y, f.slope_x * by - f.slope_y * bx,
+          residuals++, jacobian);
+    }
+    return true;
+  }
+
+ private:
+  /// The residual is the square root of the Geman-McClure function: scale * d / sqrt(scale^2 + d^2).
+  void put(const FieldSample& f, double by_x, double by_y, double by_theta, double* residual,
+           double*& jacobian) const {
+    const double scale2 = options_.scale_m * options_.scale_m;
+    const double root = std::sqrt(scale2 + f.distance_m * f.distance_m);
+    *residual = options_.scale_m * f.distance_m / root;
+    if (jacobian != nullptr) {
+      const double slope = options_.scale_m * scale2 / (root * root * root);
+      *jacobian++ = slope * by_x;
+      *jacobian++ = slope * by_y;
+      *jacobian++ = slope * by_theta;
+    }
+  }
+
+  const MapLevel& target_;
+  const MapLevel& source_;
+  RefineOptions options_;
+  std::vector<Point2> target_points_;
+  std::vector<Point2> source_points_;
+};
+
+/// Covariance of (x, y, theta) at the optimum, from the residuals' slopes.
+std::optional<PoseCovariance> local_covariance(const WallDistances& cost, const double* pose, const RefineOptions& o,
+                                               double metres_a_point) {
+  const int n = cost.num_residuals();
+  std::vector<double> residuals(static_cast<std::size_t>(n));
+  std::vector<double> jacobian(static_cast<std::size_t>(n) * 3);
+  double* blocks[] = {jacobian.data()};
+  const double* parameters[] = {pose};
+  cost.Evaluate(parameters, residuals.data(), blocks);
+  const double near_limit = o.scale_m * o.reach_m / std::hypot(o.scale_m, o.reach_m) * (1 - 1e-9);
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  double sum = 0;
+  int matched = 0;
+  for (int i = 0; i < n; ++i) {
+    const double r = residuals[static_cast<std::size_t>(i)];
+    if (r < near_limit) {
+      const Eigen::Map<const Eigen::Vector3d> j(&jacobian[static_cast<std::size_t>(i) * 3]);
+      information += j * j.transpose();
+      sum += r * r;
+      ++matched;
+    }
+  }
+  if (matched < 3) {
+    return std::nullopt;
+  }
+  const double variance = sum / matched;
+  const double points_a_sample = std::max(1.0, o.independent_m / metres_a_point);
+  information /= std::max(variance, 1e-6) * points_a_sample;
+  // No direction is known worse than 10 m, no angle worse than pi: keeps the inverse finite where nothing fixes it.
+  information.diagonal() += Eigen::Vector3d(1e-2, 1e-2, 1 / (kPi * kPi));
+  return information.inverse();
+}
+
+}  // namespace
+
+void RefineOptions::describe(OptionList& list) {
+  list.add("reach_m", reach_m, 0.05, 10,
+           {"m", "Walls farther than this from any wall of the other map do not pull.",
+            "Raise it for poses that are farther off; other walls then pull as well."})
+      .add("scale_m", scale_m, 0.01, 5, {"m", "Distance at which a wall's pull begins to fade.", ""})
+      .add("max_iterations", max_iterations, 1, 1000, {"", "Iterations of the solver.", ""})
+      .add("max_points", max_points, 50, 1000000,
+           {"points", "Wall points of each map.", "Time grows with it; the covariance takes it into account."})
+      .add("independent_m", independent_m, 0.01, 100,
+           {"m", "Length of wall that counts as one independent measurement in the covariance.", ""});
+}
+
+PoseEstimate refine(const PreparedMap& target, const PreparedMap& source, const Pose2& target_from_source,
+                    const RefineOptions& options) {
+  const Pose2 start = to_local(target_from_source, target, source);
+  double pose[3] = {start.x_m, start.y_m, start.theta_rad};
+  WallDistances cost(target, source, options);
+  if (cost.num_residuals() < 3) {
+    return {target_from_source, std::nullopt};
+  }
+  ceres::Problem::Options problem_options;
+  problem_options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(problem_options);
+  problem.AddResidualBlock(&cost, nullptr, pose);
+  ceres::Solver::Options solver;
+  solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  solver.max_num_iterations = options.max_iterations;
+  solver.function_tolerance = 1e-4;
+  solver.parameter_tolerance = 1e-6;
+  solver.logging_type = ceres::SILENT;
+  solver.num_threads = 1;
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &problem, &summary);
+
+  const double metres_a_point =
+      static_cast<double>(target.walls().size() + source.walls().size()) / cost.num_residuals() *
+      target.resolution_m();
+  const std::optional<PoseCovariance> local = local_covariance(cost, pose, options, metres_a_point);
+  const Pose2 better{pose[0], pose[1], wrap_angle(pose[2])};
+  if (!local || !summary.IsSolutionUsable()) {
+    return {target_from_source, std::nullopt};
+  }
+  // Both map frames are taken as exact: only the pose between the local frames is uncertain.
+  const PoseCovariance exact = PoseCovariance::Zero();
+  return compose(compose({target.map_from_local(), exact}, {better, local}),
+                 {inverse(source.map_from_local()), exact});
+}
+
+}  // namespace gridmerge

@@ -1,0 +1,31 @@
+#pragma once
+/// Sub-cell refinement of a pose on the distance fields of both maps, with its covariance.
+#include <optional>
+
+#include "gridmerge/base/options.hpp"
+#include "gridmerge/grid/covariance.hpp"
+#include "gridmerge/grid/prepared_map.hpp"
+
+namespace gridmerge {
+
+struct RefineOptions {
+  double reach_m = 0.4;
+  double scale_m = 0.12;
+  int max_iterations = 12;
+  int max_points = 1500;
+  double independent_m = 0.5;
+
+  void describe(OptionList& list);
+};
+
+/// Minimises, over the pose, the sum over the wall points of both maps of a bounded (Geman-McClure) function of their
+/// distance to the nearest wall of the other map, read bilinearly from its distance field (Ceres, Levenberg-Marquardt).
+///
+/// The covariance is that of the walls which found a partner, counted as independent once every `independent_m`. Along
+/// a direction that the walls do not fix (a bare corridor) it is large: 10 m and pi at the most.
+/// @param target_from_source  between the map frames; must be good to about reach_m
+/// @return the better pose; the given one without a covariance where fewer than three walls find a partner
+[[nodiscard]] PoseEstimate refine(const PreparedMap& target, const PreparedMap& source, const Pose2& target_from_source,
+                                  const RefineOptions& options);
+
+}  // namespace gridmerge

@@ -1,0 +1,55 @@
+#pragma once
+/// Loops over independent items. What an item computes depends on its index alone, and whoever sums does so in index
+/// order: so an answer is the same at any number of threads.
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace gridmerge {
+
+/// Calls `body(index, worker)` for every index in 0..count-1 on up to `num_threads` threads, the caller's among them.
+/// `worker` (0..num_threads-1) names scratch memory that is not shared; it must not influence a result.
+/// The first exception that a body throws is thrown again here, after all threads have come to rest.
+template <typename Body>
+void parallel_for(std::size_t count, int num_threads, Body&& body) {
+  const std::size_t workers = std::min(count, static_cast<std::size_t>(std::max(1, num_threads)));
+  if (workers <= 1) {
+    for (std::size_t index = 0; index < count; ++index) {
+      body(index, std::size_t{0});
+    }
+    return;
+  }
+  std::atomic<std::size_t> next{0};
+  std::exception_ptr failure;
+  std::mutex failure_mutex;
+  const auto work = [&](std::size_t worker) {
+    try {
+      for (std::size_t index = next++; index < count; index = next++) {
+        body(index, worker);
+      }
+    } catch (...) {
+      const std::scoped_lock lock(failure_mutex);
+      if (!failure) {
+        failure = std::current_exception();
+      }
+      next = count;
+    }
+  };
+  {
+    std::vector<std::jthread> threads;
+    threads.reserve(workers - 1);
+    for (std::size_t worker = 1; worker < workers; ++worker) {
+      threads.emplace_back(work, worker);
+    }
+    work(0);
+  }
+  if (failure) {
+    std::rethrow_exception(failure);
+  }
+}
+
+}  // namespace gridmerge

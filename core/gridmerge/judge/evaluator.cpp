@@ -1,0 +1,313 @@
+#include "gridmerge/judge/evaluator.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "gridmerge/base/random.hpp"
+
+namespace gridmerge {
+namespace {
+
+/// An affine map from points of one local frame to cells of a level of the other.
+struct ToCells {
+  float c, s, x0, y0;
+
+  ToCells(const MapLevel& level, const Pose2& level_from_points) {
+    const double scale = 1 / level.resolution_m;
+    c = static_cast<float>(std::cos(level_from_points.theta_rad) * scale);
+    s = static_cast<float>(std::sin(level_from_points.theta_rad) * scale);
+    x0 = static_cast<float>((level_from_points.x_m - level.lower_left.x_m) * scale);
+    y0 = static_cast<float>((level_from_points.y_m - level.lower_left.y_m) * scale);
+  }
+  [[nodiscard]] int column(Point2f p) const { return static_cast<int>(std::floor(c * p.x_m - s * p.y_m + x0)); }
+  [[nodiscard]] int row(Point2f p) const { return static_cast<int>(std::floor(s * p.x_m + c * p.y_m + y0)); }
+};
+
+Point2f cell_centre(const MapLevel& level, int column, int row) {
+  return {static_cast<float>(level.lower_left.x_m + (column + 0.5) * level.resolution_m),
+          static_cast<float>(level.lower_left.y_m + (row + 0.5) * level.resolution_m)};
+}
+
+/// d of Eq. 2.7: mean Manhattan distance [cells] from each cell of that state in `moving` to the nearest such cell of
+/// `fixed`. A cell that falls outside `fixed` walks to its border first.
+double mean_manhattan(const MapLevel& fixed, const MapLevel& moving, const Pose2& fixed_from_moving, CellState state) {
+  std::vector<std::uint8_t> other(fixed.state.size());
+  std::transform(fixed.state.begin(), fixed.state.end(), other.begin(),
+                 [&](CellState s) { return static_cast<std::uint8_t>(s == state ? 0 : 1); });
+  if (std::find(other.begin(), other.end(), 0) == other.end()) {
+    return 0;
+  }
+  cv::Mat distance;
+  cv::distanceTransform(cv::Mat(fixed.height, fixed.width, CV_8UC1, other.data()), distance, cv::DIST_L1, 3);
+  const ToCells to(fixed, fixed_from_moving);
+  double sum = 0;
+  double count = 0;
+  for (int row = 0; row < moving.height; ++row) {
+    for (int column = 0; column < moving.width; ++column) {
+      if (moving.state[moving.offset(column, row)] != state) {
+        continue;
+      }
+      const Point2f p = cell_centre(moving, column, row);
+      const int c = to.column(p);
+      const int r = to.row(p);
+      const int inside_c = std::clamp(c, 0, fixed.width - 1);
+      const int inside_r = std::clamp(r, 0, fixed.height - 1);
+      sum += std::abs(c - inside_c) + std::abs(r - inside_r) +
+             static_cast<double>(distance.at<float>(inside_r, inside_c));
+      count += 1;
+    }
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+double share(double part, double rest) { return part + rest > 0 ? part / (part + rest) : 0; }
+
+}  // namespace
+
+void EvaluatorOptions::describe(OptionList& list) {
+  list.add("tolerance_m", tolerance_m, 0.02, 2,
+           {"m", "A wall is confirmed where the other map has one within this distance.",
+            "Raise it for maps bent by drift; wrong poses then find more walls as well."})
+      .add("conflict_weight", conflict_weight, 0, 10,
+           {"", "Metres of confirmed wall that a metre of wall in the other's free space outweighs.",
+            "Lower it where things moved between the two visits."})
+      .add("c_lock", c_lock, 0, 1, {"cells", "Weight of dis - agr in the random walk's figure delta (Eq. 2.5).", ""})
+      .add("random_poses", random_poses, 2, 10000,
+           {"poses", "Poses drawn to learn what chance gives.", "Time grows with it, a little."})
+      .add("max_points", max_points, 500, 10000000,
+           {"points", "Wall cells of each map that are looked at; of more, every n-th is.",
+            "Raise it for very large maps, whose overlap may be a small part of them."});
+}
+
+std::vector<std::pair<std::string, double>> Figures::named() const {
+  return {{"evidence_m", evidence_m},
+          {"conflict_share", conflict_share},
+          {"same_side_share", same_side_share},
+          {"source_walls_m", source_in_target.all_m},
+          {"source_confirmed_m", source_in_target.confirmed_m},
+          {"source_same_side_m", source_in_target.same_side_m},
+          {"source_in_free_m", source_in_target.in_free_m},
+          {"source_unseen_m", source_in_target.unseen_m},
+          {"target_walls_m", target_in_source.all_m},
+          {"target_confirmed_m", target_in_source.confirmed_m},
+          {"target_same_side_m", target_in_source.same_side_m},
+          {"target_in_free_m", target_in_source.in_free_m},
+          {"target_unseen_m", target_in_source.unseen_m},
+          {"overlap_area_m2", overlap_area_m2},
+          {"overlap_share", overlap_share},
+          {"agreement_cells", agreement_cells},
+          {"disagreement_cells", disagreement_cells},
+          {"acceptance_index", acceptance_index},
+          {"fitness", fitness},
+          {"mutual_information_bit", mutual_information_bit},
+          {"psi_cells", psi_cells},
+          {"delta", delta}};
+}
+
+Evaluator::Evaluator(const PreparedMap& target, const PreparedMap& source, EvaluatorOptions options)
+    : options_(options) {
+  require_valid(options_, "evaluator");
+  target_ = side_of(target);
+  source_ = side_of(source);
+}
+
+Evaluator::Side Evaluator::side_of(const PreparedMap& map) const {
+  Side side;
+  side.map = &map;
+  const MapLevel& level = map.level(0);
+  side.seen_from.assign(level.state.size(), 0);
+  const auto limit = static_cast<std::size_t>(options_.max_points);
+  const std::size_t step = std::max<std::size_t>(1, (map.walls().size() + limit - 1) / limit);
+  side.metres_a_wall = static_cast<double>(step) * level.resolution_m;
+  const double reach_cells = options_.tolerance_m / level.resolution_m + 1e-6;
+  const int reach = static_cast<int>(reach_cells);
+  std::vector<int> half_width(static_cast<std::size_t>(reach) + 1);
+  for (int dy = 0; dy <= reach; ++dy) {
+    half_width[static_cast<std::size_t>(dy)] = static_cast<int>(std::sqrt(reach_cells * reach_cells - dy * dy));
+  }
+  std::size_t index = 0;
+  for (const WallPoint& wall : map.walls()) {
+    SidedWall sided{.at = wall.at, .direction = 0, .has_side = wall.free_normal.x_m != 0 || wall.free_normal.y_m != 0};
+    std::uint8_t directions = 0xff;
+    if (sided.has_side) {
+      const double turn = std::atan2(wall.free_normal.y_m, wall.free_normal.x_m) / (2 * kPi);
+      sided.direction = static_cast<std::uint8_t>(std::lround(turn * 64) & 63);
+      // Its own octant and the two beside it: normals up to about 60 degrees apart agree.
+      const int octant = ((sided.direction + 4) >> 3) & 7;
+      directions = static_cast<std::uint8_t>((1 << octant) | (1 << ((octant + 1) & 7)) | (1 << ((octant + 7) & 7)));
+    }
+    const int column = static_cast<int>((wall.at.x_m - level.lower_left.x_m) / level.resolution_m);
+    const int row = static_cast<int>((wall.at.y_m - level.lower_left.y_m) / level.resolution_m);
+    for (int dy = -reach; dy <= reach; ++dy) {
+      if (row + dy < 0 || row + dy >= level.height) {
+        continue;
+      }
+      const int half = half_width[static_cast<std::size_t>(std::abs(dy))];
+      const int low = std::max(0, column - half);
+      const int high = std::min(level.width - 1, column + half);
+      std::uint8_t* cell = &side.seen_from[level.offset(low, row + dy)];
+      for (int c = low; c <= high; ++c) {
+        *cell++ |= directions;
+      }
+    }
+    if (index++ % step == 0) {
+      side.walls.push_back(sided);
+    }
+  }
+  return side;
+}
+
+WallMeeting Evaluator::meet(const Side& fixed, const Side& moving, const Pose2& fixed_from_moving) const {
+  const MapLevel& level = fixed.map->level(0);
+  const ToCells to(level, fixed_from_moving);
+  const int turn = static_cast<int>(std::lround(fixed_from_moving.theta_rad / (2 * kPi) * 64));
+  const float clear_m = static_cast<float>(options_.tolerance_m + level.resolution_m);
+  double confirmed = 0;
+  double same_side = 0;
+  double in_free = 0;
+  for (const SidedWall& wall : moving.walls) {
+    const int column = to.column(wall.at);
+    const int row = to.row(wall.at);
+    if (!level.contains(column, row)) {
+      continue;
+    }
+    const std::size_t at = level.offset(column, row);
+    if (const std::uint8_t seen_from = fixed.seen_from[at]; seen_from != 0) {
+      confirmed += 1;
+      const int octant = ((wall.direction + turn + 4) >> 3) & 7;
+      same_side += wall.has_side ? (seen_from >> octant) & 1 : 0.5;
+    } else if (level.state[at] == CellState::kOpen && level.wall_distance_m[at] > clear_m) {
+      in_free += 1;
+    }
+  }
+  const double unit = moving.metres_a_wall;
+  const double all = static_cast<double>(moving.walls.size());
+  return {.all_m = all * unit,
+          .confirmed_m = confirmed * unit,
+          .same_side_m = same_side * unit,
+          .in_free_m = in_free * unit,
+          .unseen_m = (all - confirmed - in_free) * unit};
+}
+
+double Evaluator::evidence_m(const Pose2& target_from_source) const {
+  return wall_figures(target_from_source).evidence_m;
+}
+
+Figures Evaluator::wall_figures(const Pose2& target_from_source) const {
+  const Pose2 local = to_local(target_from_source, *target_.map, *source_.map);
+  Figures f;
+  f.source_in_target = meet(target_, source_, local);
+  f.target_in_source = meet(source_, target_, inverse(local));
+  const double same_side = f.source_in_target.same_side_m + f.target_in_source.same_side_m;
+  const double in_free = f.source_in_target.in_free_m + f.target_in_source.in_free_m;
+  const double confirmed = f.source_in_target.confirmed_m + f.target_in_source.confirmed_m;
+  f.evidence_m = same_side - options_.conflict_weight * in_free;
+  f.conflict_share = share(in_free, same_side);
+  f.same_side_share = confirmed > 0 ? same_side / confirmed : 0;
+  return f;
+}
+
+Figures Evaluator::figures(const Pose2& target_from_source) const {
+  Figures f = wall_figures(target_from_source);
+  const Pose2 local = to_local(target_from_source, *target_.map, *source_.map);
+  add_cell_figures(f, local);
+  add_random_walk_figures(f, local);
+  return f;
+}
+
+void Evaluator::add_cell_figures(Figures& figures, const Pose2& local) const {
+  const MapLevel& target = target_.map->level(0);
+  const MapLevel& source = source_.map->level(0);
+  const std::vector<std::int8_t>& target_percent = target_.map->occupancy();
+  const ToCells to(target, local);
+  std::array<std::array<double, 3>, 3> count{};  // by state in the target and in the source
+  for (int row = 0; row < source.height; ++row) {
+    for (int column = 0; column < source.width; ++column) {
+      const CellState in_source = source.state[source.offset(column, row)];
+      if (in_source == CellState::kUnseen) {
+        continue;
+      }
+      const Point2f p = cell_centre(source, column, row);
+      const int c = to.column(p);
+      const int r = to.row(p);
+      if (!target.contains(c, r)) {
+        continue;
+      }
+      const std::size_t at = target.offset(c, r);
+      const CellState in_target = target.state[at];
+      count[static_cast<std::size_t>(in_target)][static_cast<std::size_t>(in_source)] += 1;
+      if (in_source == CellState::kWall && in_target == CellState::kWall) {
+        figures.fitness += target_percent[at] / 100.0;  // Eq. 3.6
+      }
+    }
+  }
+  constexpr auto kOpenAt = static_cast<std::size_t>(CellState::kOpen);
+  constexpr auto kWallAt = static_cast<std::size_t>(CellState::kWall);
+  figures.agreement_cells = count[kOpenAt][kOpenAt] + count[kWallAt][kWallAt];
+  figures.disagreement_cells = count[kOpenAt][kWallAt] + count[kWallAt][kOpenAt];
+  figures.acceptance_index = share(figures.agreement_cells, figures.disagreement_cells);  // Eq. 2.8
+  const double overlap = figures.agreement_cells + figures.disagreement_cells;
+  figures.overlap_area_m2 = overlap * target.resolution_m * target.resolution_m;
+  const double smaller = std::min(target_.map->known_area_m2(), source_.map->known_area_m2());
+  figures.overlap_share = smaller > 0 ? figures.overlap_area_m2 / smaller : 0;
+  if (overlap > 0) {
+    for (const std::size_t t : {kOpenAt, kWallAt}) {
+      for (const std::size_t s : {kOpenAt, kWallAt}) {
+        const double joint = count[t][s] / overlap;
+        const double alone_t = (count[t][kOpenAt] + count[t][kWallAt]) / overlap;
+        const double alone_s = (count[kOpenAt][s] + count[kWallAt][s]) / overlap;
+        if (joint > 0) {
+          figures.mutual_information_bit += joint * std::log2(joint / (alone_t * alone_s));
+        }
+      }
+    }
+  }
+}
+
+void Evaluator::add_random_walk_figures(Figures& figures, const Pose2& local) const {
+  constexpr int kLevel = 2;
+  const MapLevel& target = target_.map->level(kLevel);
+  const MapLevel& source = source_.map->level(kLevel);
+  if (target.state.empty() || source.state.empty()) {
+    return;
+  }
+  for (const CellState state : {CellState::kOpen, CellState::kWall}) {  // Eq. 2.6
+    figures.psi_cells += mean_manhattan(target, source, local, state) + mean_manhattan(source, target, inverse(local), state);
+  }
+  figures.delta =
+      figures.psi_cells + options_.c_lock * (figures.disagreement_cells - figures.agreement_cells);  // Eq. 2.5
+}
+
+RandomLevel Evaluator::random_level(std::uint64_t seed) const {
+  RandomLevel level;
+  double sum = 0;
+  double sum_of_squares = 0;
+  const PreparedMap& target = *target_.map;
+  const PreparedMap& source = *source_.map;
+  for (int i = 0; i < options_.random_poses; ++i) {
+    // A wall of one laid on a wall of the other, at any angle: so every pose overlaps, and chance has its best.
+    RandomStream random(seed, "evaluator/random poses", static_cast<std::uint64_t>(i));
+    if (target.walls().empty() || source.walls().empty()) {
+      break;
+    }
+    const Point2f t = target.walls()[random.below(static_cast<std::uint32_t>(target.walls().size()))].at;
+    const Point2f s = source.walls()[random.below(static_cast<std::uint32_t>(source.walls().size()))].at;
+    const double angle = random.uniform(-kPi, kPi);
+    const Point2 turned = Pose2{0, 0, angle} * Point2{s.x_m, s.y_m};
+    const Pose2 local{t.x_m - turned.x_m, t.y_m - turned.y_m, angle};
+    const double evidence = evidence_m(from_local(local, target, source));
+    sum += evidence;
+    sum_of_squares += evidence * evidence;
+    ++level.poses;
+  }
+  if (level.poses > 1) {
+    const double n = level.poses;
+    level.mean_m = sum / n;
+    level.deviation_m = std::sqrt(std::max(0.0, sum_of_squares / n - level.mean_m * level.mean_m));
+  }
+  return level;
+}
+
+}  // namespace gridmerge

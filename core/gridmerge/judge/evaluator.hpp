@@ -1,0 +1,104 @@
+#pragma once
+/// The one Evaluator: the same figures for any pose, whoever proposed it.
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gridmerge/base/options.hpp"
+#include "gridmerge/grid/prepared_map.hpp"
+
+namespace gridmerge {
+
+struct EvaluatorOptions {
+  double tolerance_m = 0.2;
+  double conflict_weight = 1.75;
+  double c_lock = 1e-3;
+  int random_poses = 48;
+  int max_points = 8000;
+
+  void describe(OptionList& list);
+};
+
+/// What the walls of one map meet in the other. Lengths [m]: cells times resolution, so a wall two cells thick counts
+/// twice.
+struct WallMeeting {
+  double all_m = 0;        ///< every wall cell
+  double confirmed_m = 0;  ///< a wall of the other map lies within the tolerance ...
+  double same_side_m = 0;  ///< ... and was seen from the same side
+  double in_free_m = 0;    ///< stands in the other map's free space, beyond the tolerance of any wall
+  double unseen_m = 0;     ///< the rest: the other map does not know
+};
+
+/// Everything by which a pose is judged. All of it is symmetric: swap the maps, invert the pose, and it stays.
+struct Figures {
+  // Walls against walls and against free space, each way, apart from free-free agreement.
+  WallMeeting source_in_target;
+  WallMeeting target_in_source;
+  double evidence_m = 0;      ///< same_side_m - conflict_weight * in_free_m, both ways: what hypotheses are ranked by
+  double conflict_share = 0;  ///< in_free_m / (in_free_m + same_side_m), both ways
+  double same_side_share = 0; ///< same_side_m / confirmed_m, both ways
+
+  // Cell by cell, source cells read on the target's nearest cells.
+  double overlap_area_m2 = 0;   ///< known in both
+  double overlap_share = 0;     ///< of the smaller map's known area
+  double agreement_cells = 0;   ///< agr: known in both and equal
+  double disagreement_cells = 0;  ///< dis
+  double acceptance_index = 0;  ///< ai, Eq. 2.8 [birk2006]; 0 where nothing overlaps
+  double fitness = 0;           ///< F, Eq. 3.5 [li2013]: sum of the target's occupancy (0..1) under the source's walls
+  double mutual_information_bit = 0;  ///< of free/occupied in the overlap, per cell
+
+  // The random walk's figures [birk2006], at PreparedMap level 2.
+  double psi_cells = 0;   ///< psi, Eq. 2.6, 2.7: lower is better
+  double delta = 0;       ///< psi + c_lock (dis - agr), Eq. 2.5: lower is better
+
+  /// Name and value of each, in the order above; stable names, as in JSON and CSV.
+  [[nodiscard]] std::vector<std::pair<std::string, double>> named() const;
+};
+
+/// What poses chosen at random get: the ground over which a good one must stand.
+struct RandomLevel {
+  double mean_m = 0;       ///< of evidence_m
+  double deviation_m = 0;  ///< standard deviation, >= 0
+  int poses = 0;           ///< that made the maps overlap at all
+};
+
+/// Made once for a pair of maps; const and thread safe. Borrows the maps. Poses are between map frames.
+class Evaluator {
+ public:
+  /// @throws std::invalid_argument listing every option out of range
+  Evaluator(const PreparedMap& target, const PreparedMap& source, EvaluatorOptions options);
+
+  /// Figures::evidence_m alone, at a fraction of the cost.
+  [[nodiscard]] double evidence_m(const Pose2& target_from_source) const;
+  /// The wall figures only; the rest is zero.
+  [[nodiscard]] Figures wall_figures(const Pose2& target_from_source) const;
+  /// All figures.
+  [[nodiscard]] Figures figures(const Pose2& target_from_source) const;
+  [[nodiscard]] RandomLevel random_level(std::uint64_t seed) const;
+
+ private:
+  /// A wall cell with the side it was seen from, in 1/64 of a turn; kNoSide where not clear.
+  struct SidedWall {
+    Point2f at;
+    std::uint8_t direction = 0;
+    bool has_side = false;
+  };
+  struct Side {
+    const PreparedMap* map = nullptr;
+    std::vector<SidedWall> walls;
+    double metres_a_wall = 0;
+    /// For each cell of level 0: which of eight directions the walls within the tolerance were seen from.
+    std::vector<std::uint8_t> seen_from;
+  };
+  [[nodiscard]] Side side_of(const PreparedMap& map) const;
+  [[nodiscard]] WallMeeting meet(const Side& fixed, const Side& moving, const Pose2& fixed_from_moving) const;
+  void add_cell_figures(Figures& figures, const Pose2& local) const;
+  void add_random_walk_figures(Figures& figures, const Pose2& local) const;
+
+  EvaluatorOptions options_;
+  Side target_;
+  Side source_;
+};
+
+}  // namespace gridmerge

@@ -1,0 +1,156 @@
+#include "gridmerge/judge/verdict.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace gridmerge {
+namespace {
+
+std::string fixed(double value, int digits) {
+  char text[48];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
+std::string percent(double share) { return fixed(100 * share, 0) + " %"; }
+
+double same_side_m(const Figures& f) { return f.source_in_target.same_side_m + f.target_in_source.same_side_m; }
+double in_free_m(const Figures& f) { return f.source_in_target.in_free_m + f.target_in_source.in_free_m; }
+
+double confidence_of(const Figures& f, const Verdict& v, const VerdictOptions& o) {
+  if (f.evidence_m <= 0) {
+    return 0;
+  }
+  const double sum = o.bias + o.per_log_same_side * std::log(std::max(1.0, same_side_m(f))) +
+                     o.per_conflict_share * f.conflict_share + o.per_lead * v.lead +
+                     o.per_log_lead * std::log(std::max(0.1, v.lead_m)) + o.per_same_side_share * f.same_side_share;
+  return 1 / (1 + std::exp(-sum));
+}
+
+/// What the covariance says in words, where a direction is not fixed.
+void add_weak_direction(const PoseEstimate& estimate, const VerdictOptions& o, std::vector<std::string>& reasons) {
+  if (!estimate.covariance) {
+    return;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(estimate.covariance->topLeftCorner<2, 2>());
+  const double deviation = std::sqrt(std::max(0.0, solver.eigenvalues()(1)));
+  if (deviation > o.weak_direction_m) {
+    const Eigen::Vector2d way = solver.eigenvectors().col(1);
+    double heading = degrees(std::atan2(way(1), way(0)));
+    heading += heading < 0 ? 180 : 0;
+    reasons.push_back("the walls hardly fix the pose along " + fixed(heading, 0) + " deg: standard deviation " +
+                      fixed(deviation, 2) + " m");
+  }
+}
+
+}  // namespace
+
+std::string to_string(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kMerged:
+      return "merged";
+    case Outcome::kAmbiguous:
+      return "ambiguous";
+    case Outcome::kNoOverlap:
+      return "no_overlap";
+    case Outcome::kDeclined:
+      return "declined";
+    case Outcome::kStopped:
+      return "stopped";
+  }
+  return "declined";
+}
+
+void VerdictOptions::describe(OptionList& list) {
+  list.add("min_same_side_m", min_same_side_m, 0, 1e6,
+           {"m", "Least length of wall, both ways, seen from the same side in both maps.",
+            "Lower it for very small places; little then speaks for a merge."})
+      .add("min_lead", min_lead, 0, 1,
+           {"", "Least lead in evidence over the best distinct other pose, as a share.",
+            "Lower it and look-alike places get merged wrongly."})
+      .add("max_conflict_share", max_conflict_share, 0, 1,
+           {"", "Greatest share of walls in the other's free space, of those in the overlap.",
+            "Raise it where things moved between the two visits."})
+      .add("min_deviations", min_deviations, 0, 1e6,
+           {"", "How many standard deviations above random poses the evidence must stand at the least.", ""})
+      .add("min_confidence", min_confidence, 0, 1,
+           {"", "Least confidence of a merge.", "A wrong merge is far worse than a missed one: think before lowering."})
+      .add("bias", bias, -1e3, 1e3, {"", "Confidence: constant term of the logistic function.", ""})
+      .add("per_log_same_side", per_log_same_side, -1e3, 1e3,
+           {"", "Confidence: per natural logarithm of the wall seen from the same side [m].", ""})
+      .add("per_conflict_share", per_conflict_share, -1e3, 1e3, {"", "Confidence: per unit of conflict_share.", ""})
+      .add("per_lead", per_lead, -1e3, 1e3, {"", "Confidence: per unit of lead.", ""})
+      .add("per_log_lead", per_log_lead, -1e3, 1e3, {"", "Confidence: per natural logarithm of the lead [m].", ""})
+      .add("per_same_side_share", per_same_side_share, -1e3, 1e3, {"", "Confidence: per unit of same_side_share.", ""})
+      .add("distinct_m", distinct_m, 0.01, 100,
+           {"m", "Poses farther apart than this, at the source's centre, are different answers.",
+            "Raise it for maps so bent that one pose cannot be told from the next."})
+      .add("distinct_deg", distinct_deg, 0.1, 180, {"deg", "Poses turned apart by more are different answers.", ""})
+      .add("weak_direction_m", weak_direction_m, 0, 100,
+           {"m", "A direction less certain than this (standard deviation) is named among the reasons.", ""});
+}
+
+Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_level, const VerdictOptions& o) {
+  Verdict v;
+  if (ranked.empty()) {
+    v.reasons.push_back("no pose lays walls on walls without laying more of them into free space");
+    return v;
+  }
+  const Figures& best = ranked.front().figures;
+  const double other = ranked.size() > 1 ? std::max(0.0, ranked[1].figures.evidence_m) : 0;
+  v.lead_m = std::max(0.0, best.evidence_m - other);
+  v.lead = best.evidence_m > 0 ? v.lead_m / best.evidence_m : 0;
+  v.deviations = random_level.deviation_m > 0
+                     ? (best.evidence_m - random_level.mean_m) / random_level.deviation_m
+                     : 0;
+  v.confidence = confidence_of(best, v, o);
+
+  const std::string agreeing = fixed(same_side_m(best), 1) + " m of wall agree, " + fixed(in_free_m(best), 1) +
+                               " m stand in the other's free space (" + percent(best.conflict_share) + ")";
+  const std::string leading = "the next distinct pose has " + percent(1 - v.lead) + " of the evidence";
+  const std::string standing = "the evidence stands " + fixed(v.deviations, 1) +
+                               " standard deviations above random poses";
+  // What speaks against overlap at all, and what speaks only against this pose.
+  std::vector<std::string> nothing;
+  std::vector<std::string> doubts;
+  if (best.evidence_m <= 0) {
+    nothing.push_back("more walls stand in free space than on walls: " + agreeing);
+  } else if (same_side_m(best) < o.min_same_side_m) {
+    nothing.push_back("too little in common: " + agreeing + "; at least " + fixed(o.min_same_side_m, 1) + " m wanted");
+  }
+  if (v.deviations < o.min_deviations) {
+    nothing.push_back(standing + "; at least " + fixed(o.min_deviations, 1) + " wanted");
+  }
+  if (best.conflict_share > o.max_conflict_share) {
+    nothing.push_back("too much conflict: " + agreeing + "; at most " + percent(o.max_conflict_share) + " wanted");
+  }
+  if (v.lead < o.min_lead) {
+    doubts.push_back("another pose fits as well: " + leading);
+  }
+  if (v.confidence < o.min_confidence) {
+    doubts.push_back("not sure enough: confidence " + fixed(v.confidence, 2) + " of " + fixed(o.min_confidence, 2) +
+                     " wanted");
+  }
+  if (!nothing.empty()) {
+    v.outcome = Outcome::kNoOverlap;
+  } else if (!doubts.empty()) {
+    v.outcome = Outcome::kAmbiguous;
+  } else {
+    v.outcome = Outcome::kMerged;
+  }
+  v.reasons = nothing;
+  v.reasons.insert(v.reasons.end(), doubts.begin(), doubts.end());
+  v.reasons.push_back(agreeing);
+  v.reasons.push_back(leading);
+  v.reasons.push_back(standing);
+  add_weak_direction(ranked.front().target_from_source, o, v.reasons);
+  if (v.outcome != Outcome::kMerged) {
+    // What is not merged must not look sure of itself.
+    v.confidence = std::min(v.confidence, nothing.empty() ? o.min_confidence : 0.5 * o.min_confidence);
+  }
+  return v;
+}
+
+}  // namespace gridmerge

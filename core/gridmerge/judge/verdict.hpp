@@ -1,0 +1,67 @@
+#pragma once
+/// From figures to a verdict: is the best pose to be believed, how sure is that, and why.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gridmerge/base/options.hpp"
+#include "gridmerge/grid/covariance.hpp"
+#include "gridmerge/judge/evaluator.hpp"
+
+namespace gridmerge {
+
+enum class Outcome {
+  kMerged,     ///< the best pose is to be believed
+  kAmbiguous,  ///< something fits, but another pose fits about as well, or too little speaks for it
+  kNoOverlap,  ///< nothing fits better than chance would have it
+  kDeclined,   ///< these maps cannot be aligned at all (empty, no walls), or the method objects
+  kStopped,    ///< stopped before any pose was found
+};
+
+/// "merged", "ambiguous", "no_overlap", "declined", "stopped": stable, as in JSON.
+[[nodiscard]] std::string to_string(Outcome outcome);
+
+/// A pose with what the Evaluator says of it.
+struct Hypothesis {
+  PoseEstimate target_from_source;  ///< between map frames
+  Figures figures;                  ///< all of them for the first hypothesis, the wall figures for the others
+  double method_score = 0;
+};
+
+struct VerdictOptions {
+  // Gates: none may be broken in a merge.
+  double min_same_side_m = 12;
+  double min_lead = 0.1;
+  double max_conflict_share = 0.3;
+  double min_deviations = 3;
+  double min_confidence = 0.9;
+  // The confidence: a logistic function of the figures.
+  double bias = -4.0;
+  double per_log_same_side = 1.0;
+  double per_conflict_share = -10;
+  double per_lead = 3;
+  double per_log_lead = 0.5;
+  double per_same_side_share = 3;
+  // When poses count as different answers.
+  double distinct_m = 1.0;
+  double distinct_deg = 6;
+  // What is said of the covariance.
+  double weak_direction_m = 0.5;
+
+  void describe(OptionList& list);
+};
+
+struct Verdict {
+  Outcome outcome = Outcome::kNoOverlap;
+  double confidence = 0;             ///< 0..1 that the first hypothesis is right
+  double lead = 0;                   ///< 1 - (evidence of the best distinct other pose) / (evidence of the first), 0..1
+  double lead_m = 0;                 ///< the same as a difference [m of wall]
+  double deviations = 0;             ///< how many standard deviations the evidence stands above random poses'
+  std::vector<std::string> reasons;  ///< in words, with figures; the decisive one first; never empty
+};
+
+/// @param ranked  hypotheses, best evidence first, no two closer than the verdict's distinct_m and distinct_deg
+[[nodiscard]] Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_level,
+                            const VerdictOptions& options);
+
+}  // namespace gridmerge

@@ -1,0 +1,236 @@
+#include "methods/genetic/genetic.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "gridmerge/base/parallel.hpp"
+#include "gridmerge/base/random.hpp"
+
+namespace gridmerge {
+namespace {
+
+/// The level of the maps on which poses evolve: fine enough to tell walls apart, coarse enough to be quick.
+constexpr int kEvolveLevel = 1;
+
+struct Individual {
+  Pose2 pose;  ///< between local frames
+  double fitness = 0;
+};
+
+bool fitter(const Individual& a, const Individual& b) { return a.fitness > b.fitness; }
+
+/// The window a prior allows; none: anywhere.
+std::optional<SweepWindow> window_of(const AlignRequest& request) {
+  if (!request.prior || (!request.prior->radius_m && !request.prior->angle_rad)) {
+    return std::nullopt;
+  }
+  const double anywhere = request.target.radius_m() + request.source.radius_m();
+  return SweepWindow{.centre = to_local(request.prior->target_from_source, request.target, request.source),
+                     .radius_m = request.prior->radius_m.value_or(anywhere),
+                     .angle_rad = request.prior->angle_rad.value_or(kPi)};
+}
+
+bool inside(const Pose2& pose, const std::optional<SweepWindow>& window) {
+  return !window || (norm(pose.translation() - window->centre.translation()) <= window->radius_m &&
+                     std::abs(wrap_angle(pose.theta_rad - window->centre.theta_rad)) <= window->angle_rad);
+}
+
+/// Uniform over the window; over every pose at which the maps could touch, where there is none.
+Pose2 uniform_pose(RandomStream& random, const AlignRequest& request, const std::optional<SweepWindow>& window) {
+  const SweepWindow all{.centre = {}, .radius_m = request.target.radius_m() + request.source.radius_m(),
+                        .angle_rad = kPi};
+  const SweepWindow& w = window ? *window : all;
+  const double way = random.uniform(-kPi, kPi);
+  const double far = w.radius_m * std::sqrt(random.uniform());
+  return {w.centre.x_m + far * std::cos(way), w.centre.y_m + far * std::sin(way),
+          wrap_angle(w.centre.theta_rad + random.uniform(-w.angle_rad, w.angle_rad))};
+}
+
+Pose2 mutated(const Pose2& pose, double sigma_m, double sigma_rad, RandomStream& random) {
+  const double dx = sigma_m * random.normal();
+  const double dy = sigma_m * random.normal();
+  return {pose.x_m + dx, pose.y_m + dy, wrap_angle(pose.theta_rad + sigma_rad * random.normal())};
+}
+
+/// Crossover II (Eq. 3.13), along the shorter arc.
+Pose2 between(const Pose2& a, const Pose2& b, double share) {
+  return {a.x_m + share * (b.x_m - a.x_m), a.y_m + share * (b.y_m - a.y_m),
+          wrap_angle(a.theta_rad + share * wrap_angle(b.theta_rad - a.theta_rad))};
+}
+
+/// The best of every niche, fittest first: a pose is left out where a fitter one lies within the niche's reach.
+std::vector<Individual> niche_heads(std::vector<Individual> population, double reach_m, double reach_rad,
+                                    std::size_t at_most) {
+  std::stable_sort(population.begin(), population.end(), fitter);
+  std::vector<Individual> heads;
+  for (const Individual& one : population) {
+    const bool taken = std::any_of(heads.begin(), heads.end(), [&](const Individual& head) {
+      return std::abs(wrap_angle(head.pose.theta_rad - one.pose.theta_rad)) < reach_rad &&
+             norm(head.pose.translation() - one.pose.translation()) < reach_m;
+    });
+    if (!taken) {
+      heads.push_back(one);
+      if (heads.size() == at_most) {
+        break;
+      }
+    }
+  }
+  return heads;
+}
+
+double geometric(double first, double last, double share) { return first * std::pow(last / first, share); }
+
+}  // namespace
+
+void GeneticOptions::describe(OptionList& list) {
+  list.add("population", population, 4, 100000,
+           {"poses", "Size of the first generation; it shrinks as niches are given up.",
+            "Raise it for large, self-similar places; time grows with it."})
+      .add("generations", generations, 1, 10000,
+           {"", "Generations of an epoch.", "Fewer are quicker; the refinement behind makes up for a little."})
+      .add("mutations", mutations, 1, 1000, {"", "Children a pose has by mutation in each generation.", ""})
+      .add("seeding", seeding, {"sweep", "uniform"},
+           {"", "First generation: the peaks of a correlation sweep over all poses, or uniform over the window.",
+            "`uniform` is the textbook's; it needs a window or luck."})
+      .add("angle_step_deg", angle_step_deg, 0.1, 30,
+           {"deg", "Step of the sweep's angles.", "Time grows with its inverse; above 3 deg long walls are missed."})
+      .add("first_sigma_m", first_sigma_m, 0.001, 100,
+           {"m", "Standard deviation of a mutation's step in the first generation.", ""})
+      .add("last_sigma_m", last_sigma_m, 0.001, 100, {"m", "The same in the last generation.", ""})
+      .add("first_sigma_deg", first_sigma_deg, 0.01, 180,
+           {"deg", "Standard deviation of a mutation's turn in the first generation.", ""})
+      .add("last_sigma_deg", last_sigma_deg, 0.01, 180, {"deg", "The same in the last generation.", ""})
+      .add("niche_m", niche_m, 0.01, 100,
+           {"m", "Poses nearer than this, and than niche_deg, share a niche: only the fittest lives on.", ""})
+      .add("niche_deg", niche_deg, 0.1, 180, {"deg", "See niche_m.", ""})
+      .add("candidates", candidates, 1, 1000,
+           {"poses", "Niches proposed at the end.", "More give the Evaluator more to choose from, and cost time."})
+      .add("max_points", max_points, 100, 1000000,
+           {"points", "Wall points of each map that a pose is tried on while evolving.", ""});
+  fit.describe(list);
+}
+
+GeneticMerger::GeneticMerger(GeneticOptions options) : options_(std::move(options)) {
+  require_valid(options_, "genetic");
+}
+
+MergerTraits GeneticMerger::traits() const {
+  return {.stochastic = true, .uses_prior = true, .needs_prior = false, .anytime = true, .warm_start = true};
+}
+
+Proposal GeneticMerger::propose(const AlignRequest& request, const RunContext& context) const {
+  const GeneticOptions& o = options_;
+  const std::optional<SweepWindow> window = window_of(request);
+  const WallFit fitness(request.target, request.source, kEvolveLevel, o.fit, static_cast<std::size_t>(o.max_points));
+  const auto size = static_cast<std::size_t>(o.population);
+  const double reach_rad = radians(o.niche_deg);
+  Proposal proposal;
+
+  // First generation: what is known, then the sweep's peaks or chance.
+  std::vector<Individual> population;
+  RandomStream first(context.seed, "genetic/first generation");
+  if (request.prior) {
+    const Pose2 start = to_local(request.prior->target_from_source, request.target, request.source);
+    population.push_back({start, 0});
+    for (std::size_t i = 0; i < size / 10; ++i) {
+      population.push_back({mutated(start, 5 * o.first_sigma_m, 3 * radians(o.first_sigma_deg), first), 0});
+    }
+  }
+  if (request.carried != nullptr) {
+    for (const Pose2& pose : request.carried->target_from_source) {
+      population.push_back({to_local(pose, request.target, request.source), 0});
+    }
+  }
+  if (o.seeding == "sweep") {
+    if (context.trace != nullptr) {
+      context.trace->on_stage("propose/sweep");
+    }
+    const SweepOptions sweep{.angle_step_rad = radians(o.angle_step_deg), .max_cells = 420, .peaks_per_angle = 12,
+                             .fit = o.fit};
+    const SweepResult found = correlation_sweep(request.target, request.source, window, sweep, context);
+    proposal.stopped = found.stopped;
+    std::vector<Individual> peaks;
+    for (const SweepPeak& peak : found.peaks) {
+      peaks.push_back({peak.local_target_from_source, peak.score});
+    }
+    for (const Individual& head : niche_heads(std::move(peaks), o.niche_m, reach_rad, size)) {
+      population.push_back(head);
+    }
+  } else {
+    for (std::size_t i = 0; i < size; ++i) {
+      population.push_back({uniform_pose(first, request, window), 0});
+    }
+  }
+  std::erase_if(population, [&](const Individual& one) { return !inside(one.pose, window); });
+  if (population.empty()) {
+    return proposal;
+  }
+  parallel_for(population.size(), context.num_threads,
+               [&](std::size_t i, std::size_t) { population[i].fitness = fitness(population[i].pose); });
+
+  // Evolution: every pose against its own children; every fourth generation the weaker half of the niches is given up.
+  if (context.trace != nullptr) {
+    context.trace->on_stage("propose/evolve");
+  }
+  const int generations = std::min(o.generations, context.stop.iteration_budget());
+  for (int generation = 0; generation < generations && !context.stop.stop_requested(); ++generation) {
+    const double share = o.generations > 1 ? static_cast<double>(generation) / (o.generations - 1) : 1;
+    const double sigma_m = geometric(o.first_sigma_m, o.last_sigma_m, share);
+    const double sigma_rad = radians(geometric(o.first_sigma_deg, o.last_sigma_deg, share));
+    const std::vector<Individual> parents = population;
+    parallel_for(parents.size(), context.num_threads, [&](std::size_t i, std::size_t) {
+      RandomStream random(context.seed, "genetic/children",
+                          static_cast<std::uint64_t>(generation) * 1000000 + static_cast<std::uint64_t>(i));
+      Individual& best = population[i];
+      const auto try_child = [&](const Pose2& pose) {
+        if (inside(pose, window)) {
+          const double f = fitness(pose);
+          if (f > best.fitness) {
+            best = {pose, f};
+          }
+        }
+      };
+      for (int m = 0; m < o.mutations; ++m) {
+        try_child(mutated(best.pose, sigma_m, sigma_rad, random));
+      }
+      const Individual& mate = parents[random.below(static_cast<std::uint32_t>(parents.size()))];
+      const PoseDifference apart = difference_at({}, mate.pose, best.pose);
+      if (apart.distance_m < 4 * o.niche_m && apart.angle_rad < 4 * reach_rad) {
+        try_child(between(best.pose, mate.pose, random.uniform()));                          // Eq. 3.13
+        try_child({best.pose.x_m, best.pose.y_m, mate.pose.theta_rad});                      // Eq. 3.12
+      }
+    });
+    ++proposal.iterations;
+    const bool cull = generation % 4 == 3;
+    population = niche_heads(std::move(population), cull ? o.niche_m : 0.02, cull ? reach_rad : radians(0.1),
+                             cull ? std::max<std::size_t>(population.size() / 2, static_cast<std::size_t>(o.candidates))
+                                  : population.size());
+    if (context.trace != nullptr) {
+      IterationRecord record{.stage = "propose/evolve",
+                             .iteration = generation,
+                             .iterations = generations,
+                             .best_score = population.front().fitness,
+                             .mean_score = 0,
+                             .best_target_from_source =
+                                 from_local(population.front().pose, request.target, request.source),
+                             .population = {}};
+      for (const Individual& one : population) {
+        record.mean_score += one.fitness / static_cast<double>(population.size());
+        record.population.push_back(from_local(one.pose, request.target, request.source));
+      }
+      context.trace->on_iteration(record);
+    }
+  }
+  proposal.stopped = proposal.stopped || context.stop.stop_requested();
+
+  for (const Individual& one :
+       niche_heads(std::move(population), o.niche_m, reach_rad, static_cast<std::size_t>(o.candidates))) {
+    const Pose2 pose = from_local(one.pose, request.target, request.source);
+    proposal.candidates.push_back({pose, one.fitness});
+    proposal.carry.target_from_source.push_back(pose);
+  }
+  return proposal;
+}
+
+}  // namespace gridmerge
