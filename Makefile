@@ -51,7 +51,8 @@ test: configure
 	@ctest --test-dir build --output-on-failure -j $(JOBS)
 
 bench: configure
-	@$(BUILD_TARGET) bench
+	@$(BUILD_TARGET) gridmerge_micro
+	@build/benchmarks/micro/gridmerge_micro
 
 format:
 	@$(SOURCES) && clang-format -i $$files

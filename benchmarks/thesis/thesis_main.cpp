@@ -29,14 +29,15 @@ std::string iteration(int number) { return number > 0 ? std::to_string(number) :
 
 void print_pair(const KnownPair& pair, const Setup& setup) {
   const HitFitness fitness(setup.target, setup.source);
-  std::cout << "\n### " << pair.scenario << "\n\n"
-            << "Received map: " << fitness.cell_count() << " occupied cells; fitness at the truth "
-            << fixed(static_cast<double>(fitness(setup.truth)) / kOccupied, 0)
-            << ". With both starts on one spot p_i is " << fixed(norm(setup.truth.translation()), 2) << " m and "
-            << fixed(degrees(std::abs(setup.truth.theta_rad)), 1) << "° off the truth.\n\n"
-            << "| window | truth in it | converged | within tolerance | half-way at | final fitness min/median/max | "
-               "ms/iteration | thesis: converged | half-way at | median fitness | ms/iteration |\n"
-            << "|---|---|---|---|---|---|---|---|---|---|---|\n";
+  std::cout
+      << "\n### " << pair.scenario << "\n\n"
+      << "Received map: " << fitness.cell_count() << " occupied cells; fitness at the truth "
+      << fixed(static_cast<double>(fitness(setup.truth)) / kOccupied, 0) << ". With both starts on one spot p_i is "
+      << fixed(norm(setup.truth.translation()), 2) << " m and " << fixed(degrees(std::abs(setup.truth.theta_rad)), 1)
+      << "° off the truth.\n\n"
+      << "| window | truth in it | converged | within tolerance | half-way at | final fitness min/median/max | "
+         "ms/iteration | thesis: converged | thesis: half-way at | thesis: median fitness | thesis: ms/iteration |\n"
+      << "|---|---|---|---|---|---|---|---|---|---|---|\n";
 }
 
 void print_window(int percent, const WindowResult& result, const std::optional<PublishedResult>& thesis) {

@@ -172,10 +172,10 @@ World office(RandomStream& random) {
   return builder.finish();
 }
 
+/// About the size of the thesis's maze, 34 m x 17 m.
 World maze(RandomStream& random) {
   constexpr int kColumns = 10;
   constexpr int kRows = 5;
-  constexpr double kCell = 3.4;
   struct Cell {
     bool visited = false;
     bool open_right = false;
@@ -214,12 +214,23 @@ World maze(RandomStream& random) {
     trail.push_back(to);
   }
 
-  Builder builder(kColumns * kCell, kRows * kCell);
+  // Passages of unequal width: on an even lattice a maze fits itself, and any other, in many places.
+  std::array<double, kColumns + 1> x_m{};
+  std::array<double, kRows + 1> y_m{};
+  for (std::size_t i = 1; i < x_m.size(); ++i) {
+    x_m[i] = x_m[i - 1] + random.uniform(2.6, 4.2);
+  }
+  for (std::size_t i = 1; i < y_m.size(); ++i) {
+    y_m[i] = y_m[i - 1] + random.uniform(2.6, 4.2);
+  }
+  Builder builder(x_m.back(), y_m.back());
   builder.outer_walls();
   for (int column = 0; column < kColumns; ++column) {
     for (int row = 0; row < kRows; ++row) {
-      const Point2 low = {column * kCell, row * kCell};
-      const Point2 high = low + Point2{kCell, kCell};
+      const auto i = static_cast<std::size_t>(column);
+      const auto j = static_cast<std::size_t>(row);
+      const Point2 low = {x_m[i], y_m[j]};
+      const Point2 high = {x_m[i + 1], y_m[j + 1]};
       // A quarter of the inner walls falls, so that there is more than one way round.
       if (column + 1 < kColumns && !at(column, row).open_right && random.below(4) != 0) {
         builder.wall({high.x_m, low.y_m}, high);

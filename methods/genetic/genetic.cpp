@@ -38,8 +38,8 @@ bool inside(const Pose2& pose, const std::optional<SweepWindow>& window) {
 
 /// Uniform over the window; over every pose at which the maps could touch, where there is none.
 Pose2 uniform_pose(RandomStream& random, const AlignRequest& request, const std::optional<SweepWindow>& window) {
-  const SweepWindow all{.centre = {}, .radius_m = request.target.radius_m() + request.source.radius_m(),
-                        .angle_rad = kPi};
+  const SweepWindow all{
+      .centre = {}, .radius_m = request.target.radius_m() + request.source.radius_m(), .angle_rad = kPi};
   const SweepWindow& w = window ? *window : all;
   const double way = random.uniform(-kPi, kPi);
   const double far = w.radius_m * std::sqrt(random.uniform());
@@ -146,8 +146,8 @@ Proposal GeneticMerger::propose(const AlignRequest& request, const RunContext& c
     if (context.trace != nullptr) {
       context.trace->on_stage("propose/sweep");
     }
-    const SweepOptions sweep{.angle_step_rad = radians(o.angle_step_deg), .max_cells = 420, .peaks_per_angle = 12,
-                             .fit = o.fit};
+    const SweepOptions sweep{
+        .angle_step_rad = radians(o.angle_step_deg), .max_cells = 420, .peaks_per_angle = 12, .fit = o.fit};
     const SweepResult found = correlation_sweep(request.target, request.source, window, sweep, context);
     proposal.stopped = found.stopped;
     std::vector<Individual> peaks;
@@ -197,8 +197,8 @@ Proposal GeneticMerger::propose(const AlignRequest& request, const RunContext& c
       const Individual& mate = parents[random.below(static_cast<std::uint32_t>(parents.size()))];
       const PoseDifference apart = difference_at({}, mate.pose, best.pose);
       if (apart.distance_m < 4 * o.niche_m && apart.angle_rad < 4 * reach_rad) {
-        try_child(between(best.pose, mate.pose, random.uniform()));                          // Eq. 3.13
-        try_child({best.pose.x_m, best.pose.y_m, mate.pose.theta_rad});                      // Eq. 3.12
+        try_child(between(best.pose, mate.pose, random.uniform()));      // Eq. 3.13
+        try_child({best.pose.x_m, best.pose.y_m, mate.pose.theta_rad});  // Eq. 3.12
       }
     });
     ++proposal.iterations;
@@ -207,14 +207,14 @@ Proposal GeneticMerger::propose(const AlignRequest& request, const RunContext& c
                              cull ? std::max<std::size_t>(population.size() / 2, static_cast<std::size_t>(o.candidates))
                                   : population.size());
     if (context.trace != nullptr) {
-      IterationRecord record{.stage = "propose/evolve",
-                             .iteration = generation,
-                             .iterations = generations,
-                             .best_score = population.front().fitness,
-                             .mean_score = 0,
-                             .best_target_from_source =
-                                 from_local(population.front().pose, request.target, request.source),
-                             .population = {}};
+      IterationRecord record{
+          .stage = "propose/evolve",
+          .iteration = generation,
+          .iterations = generations,
+          .best_score = population.front().fitness,
+          .mean_score = 0,
+          .best_target_from_source = from_local(population.front().pose, request.target, request.source),
+          .population = {}};
       for (const Individual& one : population) {
         record.mean_score += one.fitness / static_cast<double>(population.size());
         record.population.push_back(from_local(one.pose, request.target, request.source));

@@ -138,6 +138,14 @@ std::vector<double> sweep_angles(const std::optional<SweepWindow>& window, doubl
 SweepResult correlation_sweep(const PreparedMap& target, const PreparedMap& source,
                               const std::optional<SweepWindow>& window, const SweepOptions& options,
                               const RunContext& context) {
+  // The smaller map is the one to turn: the transform is then smaller. A window lies in the target's frame, and stays.
+  if (!window && source.radius_m() > target.radius_m()) {
+    SweepResult swapped = correlation_sweep(source, target, window, options, context);
+    for (SweepPeak& peak : swapped.peaks) {
+      peak.local_target_from_source = inverse(peak.local_target_from_source);
+    }
+    return swapped;
+  }
   const int k = choose_level(target, source, options.max_cells);
   const MapLevel& target_level = target.level(k);
   const MapLevel& source_level = source.level(k);
@@ -270,8 +278,8 @@ SweepResult correlation_sweep(const PreparedMap& target, const PreparedMap& sour
     }
   });
 
-  SweepResult result{.peaks = {}, .resolution_m = resolution, .angles = static_cast<int>(angles.size()),
-                     .stopped = stopped};
+  SweepResult result{
+      .peaks = {}, .resolution_m = resolution, .angles = static_cast<int>(angles.size()), .stopped = stopped};
   for (const std::vector<SweepPeak>& peaks : peaks_of) {
     result.peaks.insert(result.peaks.end(), peaks.begin(), peaks.end());
   }

@@ -1,9 +1,9 @@
 #pragma once
 /// All angles, all translations: the smooth fitness over a lattice of poses by fast Fourier transform.
 ///
-/// For a fixed angle, the fitness of all translations at once is a sum of two cross-correlations: the source's walls with
-/// the target's table, and the source's table with the target's walls. It sees the whole space of poses at the price of
-/// a few FFTs an angle, so nothing that stands out at its resolution is missed.
+/// For a fixed angle, the fitness of all translations at once is a sum of two cross-correlations: the source's walls
+/// with the target's table, and the source's table with the target's walls. It sees the whole space of poses at the
+/// price of a few FFTs an angle, so nothing that stands out at its resolution is missed.
 #include <optional>
 #include <vector>
 
@@ -14,7 +14,7 @@ namespace gridmerge {
 
 struct SweepOptions {
   double angle_step_rad = radians(2);
-  int max_cells = 420;       ///< side of the transform [cells]: the level is chosen to stay below it, where it can
+  int max_cells = 420;  ///< side of the transform [cells]: the level is chosen to stay below it, where it can
   int peaks_per_angle = 12;
   WallFitOptions fit;
 };

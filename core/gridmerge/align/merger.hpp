@@ -26,9 +26,9 @@ struct Population {
 
 /// Borrowed by the method for the time of one call; not modified.
 struct AlignRequest {
-  const PreparedMap& target;        ///< the answer is in its frame
-  const PreparedMap& source;        ///< the map that moves; same resolution as the target
-  std::optional<PosePrior> prior;   ///< none: anywhere, any angle
+  const PreparedMap& target;            ///< the answer is in its frame
+  const PreparedMap& source;            ///< the map that moves; same resolution as the target
+  std::optional<PosePrior> prior;       ///< none: anywhere, any angle
   const Population* carried = nullptr;  ///< what the last epoch's Proposal left, where the method has the trait
 };
 
@@ -36,7 +36,7 @@ struct AlignRequest {
 struct RunContext {
   std::uint64_t seed = 1;
   int num_threads = 1;
-  StopToken stop;
+  StopToken stop = {};
   TraceSink* trace = nullptr;  ///< optional, not owned
 };
 

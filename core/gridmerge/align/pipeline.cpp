@@ -154,8 +154,12 @@ Alignment align_prepared(const AlignRequest& request, const Merger& method, cons
   alignment.hypotheses = distinct(hypotheses, source.centre_in_map(), options.verdict,
                                   static_cast<std::size_t>(std::max(2, options.hypotheses)));
   if (!alignment.hypotheses.empty()) {
-    Hypothesis& best = alignment.hypotheses.front();
-    best.figures = evaluator.figures(best.target_from_source.pose);
+    // All figures for the best and for its first rival: both enter the verdict.
+    parallel_for(std::min<std::size_t>(2, alignment.hypotheses.size()), context.num_threads,
+                 [&](std::size_t i, std::size_t) {
+                   Hypothesis& one = alignment.hypotheses[i];
+                   one.figures = evaluator.figures(one.target_from_source.pose);
+                 });
     alignment.random_level = evaluator.random_level(context.seed);
   }
   alignment.verdict = judge(alignment.hypotheses, alignment.random_level, options.verdict);

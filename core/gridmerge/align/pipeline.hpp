@@ -35,14 +35,14 @@ struct StepSeconds {
 struct Alignment {
   Outcome outcome = Outcome::kDeclined;
   double confidence = 0;
-  std::vector<std::string> reasons;     ///< never empty
-  std::vector<Hypothesis> hypotheses;   ///< distinct, best first; empty where there is no pose at all
-  Verdict verdict;                      ///< lead, deviations: zero where nothing was judged
+  std::vector<std::string> reasons;    ///< never empty
+  std::vector<Hypothesis> hypotheses;  ///< distinct, best first; empty where there is no pose at all
+  Verdict verdict;                     ///< lead, deviations: zero where nothing was judged
   RandomLevel random_level;
   StepSeconds seconds;
-  Population carry;                     ///< for the next epoch
+  Population carry;  ///< for the next epoch
   int iterations = 0;
-  bool stopped = false;                 ///< ended early; the answer is the best so far
+  bool stopped = false;  ///< ended early; the answer is the best so far
 };
 
 struct AlignInput {

@@ -89,8 +89,7 @@ class WallDistances final : public ceres::CostFunction {
 
  private:
   /// The residual is the square root of the Geman-McClure function: scale * d / sqrt(scale^2 + d^2).
-  void put(const FieldSample& f, double by_x, double by_y, double by_theta, double* residual,
-           double*& jacobian) const {
+  void put(const FieldSample& f, double by_x, double by_y, double by_theta, double* residual, double*& jacobian) const {
     const double scale2 = options_.scale_m * options_.scale_m;
     const double root = std::sqrt(scale2 + f.distance_m * f.distance_m);
     *residual = options_.scale_m * f.distance_m / root;
@@ -179,8 +178,7 @@ PoseEstimate refine(const PreparedMap& target, const PreparedMap& source, const 
   ceres::Solve(solver, &problem, &summary);
 
   const double metres_a_point =
-      static_cast<double>(target.walls().size() + source.walls().size()) / cost.num_residuals() *
-      target.resolution_m();
+      static_cast<double>(target.walls().size() + source.walls().size()) / cost.num_residuals() * target.resolution_m();
   const std::optional<PoseCovariance> local = local_covariance(cost, pose, options, metres_a_point);
   const Pose2 better{pose[0], pose[1], wrap_angle(pose[2])};
   if (!local || !summary.IsSolutionUsable()) {
@@ -188,8 +186,7 @@ PoseEstimate refine(const PreparedMap& target, const PreparedMap& source, const 
   }
   // Both map frames are taken as exact: only the pose between the local frames is uncertain.
   const PoseCovariance exact = PoseCovariance::Zero();
-  return compose(compose({target.map_from_local(), exact}, {better, local}),
-                 {inverse(source.map_from_local()), exact});
+  return compose(compose({target.map_from_local(), exact}, {better, local}), {inverse(source.map_from_local()), exact});
 }
 
 }  // namespace gridmerge

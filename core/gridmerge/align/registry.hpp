@@ -43,9 +43,9 @@ struct MethodProfile {
 };
 
 struct MethodEntry {
-  std::string name;     ///< snake_case, as on the command line
-  std::string summary;  ///< one sentence
-  std::string paper;    ///< authors, title, year
+  std::string name;                     ///< snake_case, as on the command line
+  std::string summary;                  ///< one sentence
+  std::string paper;                    ///< authors, title, year
   std::vector<MethodProfile> profiles;  ///< the first is the default
 
   /// @throws std::invalid_argument naming the known profiles

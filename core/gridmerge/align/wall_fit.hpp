@@ -9,14 +9,15 @@
 namespace gridmerge {
 
 struct WallFitOptions {
-  double tolerance_m = 0.15;      ///< standard deviation of the reward about a wall
+  double tolerance_m = 0.15;         ///< standard deviation of the reward about a wall
   double free_space_penalty = 1.75;  ///< what a wall in the other's free space costs, where a wall on a wall earns 1
 
   void describe(OptionList& list);
 };
 
 /// For every cell of a level of a map, what a wall of the other map earns there, in units of 1/kFull:
-/// exp(-d^2 / 2 tolerance^2) at distance d from a wall; minus the penalty in free space far from walls; 0 where unknown.
+/// exp(-d^2 / 2 tolerance^2) at distance d from a wall; minus the penalty in free space far from walls; 0 where
+/// unknown.
 struct FitTable {
   static constexpr int kFull = 30;
   const MapLevel* level = nullptr;
@@ -43,7 +44,8 @@ class WallFit {
   WallFit(const PreparedMap& target, const PreparedMap& source, int level, const WallFitOptions& options,
           std::size_t max_points);
 
-  /// In points of full weight: about +1 for each that lies on a wall of the other map, down to -penalty for each in free space.
+  /// In points of full weight: about +1 for each that lies on a wall of the other map, down to -penalty for each in
+  /// free space.
   [[nodiscard]] double operator()(const Pose2& local_target_from_source) const;
   [[nodiscard]] std::size_t point_count() const { return source_points_.size() + target_points_.size(); }
 

@@ -13,11 +13,11 @@ class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::string_view name, std::uint64_t index = 0);
 
-  [[nodiscard]] std::uint64_t next();                        ///< 64 random bits
-  [[nodiscard]] double uniform();                            ///< [0, 1)
-  [[nodiscard]] double uniform(double low, double high);     ///< [low, high)
-  [[nodiscard]] double normal();                             ///< mean 0, standard deviation 1
-  [[nodiscard]] std::uint32_t below(std::uint32_t count);    ///< 0 .. count-1, unbiased; count > 0
+  [[nodiscard]] std::uint64_t next();                      ///< 64 random bits
+  [[nodiscard]] double uniform();                          ///< [0, 1)
+  [[nodiscard]] double uniform(double low, double high);   ///< [low, high)
+  [[nodiscard]] double normal();                           ///< mean 0, standard deviation 1
+  [[nodiscard]] std::uint32_t below(std::uint32_t count);  ///< 0 .. count-1, unbiased; count > 0
 
  private:
   std::array<std::uint64_t, 4> state_;

@@ -15,8 +15,8 @@ PoseEstimate compose(const PoseEstimate& a_from_b, const PoseEstimate& b_from_c)
   by_first(1, 2) = c * in_b.x_m - s * in_b.y_m;
   Eigen::Matrix3d by_second = Eigen::Matrix3d::Identity();
   by_second.topLeftCorner<2, 2>() << c, -s, s, c;
-  a_from_c.covariance = by_first * *a_from_b.covariance * by_first.transpose() +
-                        by_second * *b_from_c.covariance * by_second.transpose();
+  a_from_c.covariance =
+      by_first * *a_from_b.covariance * by_first.transpose() + by_second * *b_from_c.covariance * by_second.transpose();
   return a_from_c;
 }
 

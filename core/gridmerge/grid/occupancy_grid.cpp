@@ -35,10 +35,15 @@ void check_grid(const OccupancyGrid& grid) {
     throw std::invalid_argument("grid holds " + std::to_string(grid.cells.size()) + " cells, its geometry says " +
                                 std::to_string(grid.geometry.cell_count()));
   }
-  const auto [low, high] = std::minmax_element(grid.cells.begin(), grid.cells.end());
-  if (low != grid.cells.end() && (*low < kUnknown || *high > kOccupied)) {
-    throw std::invalid_argument("grid cell value " + std::to_string(*low < kUnknown ? *low : *high) +
-                                ": cells must be -1 (unknown) or 0..100");
+  // One pass without branches, so that the compiler vectorises it: -1..100 becomes 0..101 as an unsigned byte.
+  bool all_valid = true;
+  for (const std::int8_t cell : grid.cells) {
+    all_valid &= static_cast<std::uint8_t>(cell + 1) <= kOccupied + 1;
+  }
+  if (!all_valid) {
+    const auto bad = std::find_if(grid.cells.begin(), grid.cells.end(),
+                                  [](std::int8_t cell) { return cell < kUnknown || cell > kOccupied; });
+    throw std::invalid_argument("grid cell value " + std::to_string(*bad) + ": cells must be -1 (unknown) or 0..100");
   }
 }
 

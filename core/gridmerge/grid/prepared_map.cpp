@@ -140,8 +140,8 @@ PreparedMap::PreparedMap(const OccupancyGrid& grid, double resolution_m, const P
     throw std::invalid_argument("prepare: free_percent must lie below occupied_percent");
   }
   const GridGeometry& geometry = grid.geometry;
-  if (!(resolution_m >= geometry.resolution_m * (1 - 1e-9))) {
-    throw std::invalid_argument("prepare: a map cannot be made finer than it is");
+  if (!std::isfinite(resolution_m) || resolution_m < geometry.resolution_m * (1 - 1e-9)) {
+    throw std::invalid_argument("prepare: the resolution must be finite, and not finer than the map's own");
   }
   resolution_m_ = resolution_m;
   const Box box = known_box(grid, num_threads);
@@ -230,9 +230,8 @@ PreparedMap::PreparedMap(const OccupancyGrid& grid, double resolution_m, const P
   for (int k = 1; k < kLevels; ++k) {
     levels_.push_back(coarser(levels_.back()));
   }
-  parallel_for(kLevels, num_threads, [&](std::size_t k, std::size_t) {
-    levels_[k].wall_distance_m = wall_distances(levels_[k]);
-  });
+  parallel_for(kLevels, num_threads,
+               [&](std::size_t k, std::size_t) { levels_[k].wall_distance_m = wall_distances(levels_[k]); });
 }
 
 double common_resolution_m(const OccupancyGrid& a, const OccupancyGrid& b, const PrepareOptions& options) {

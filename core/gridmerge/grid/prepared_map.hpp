@@ -29,8 +29,8 @@ struct Point2f {
 
 /// An occupied cell with what its neighbourhood tells of the surface it belongs to.
 struct WallPoint {
-  Point2f at;             ///< cell centre, local frame
-  Point2f free_normal;    ///< unit vector towards the free space it was seen from; zero where that is not clear
+  Point2f at;           ///< cell centre, local frame
+  Point2f free_normal;  ///< unit vector towards the free space it was seen from; zero where that is not clear
 };
 
 /// One resolution of a map. Row-major from the lower left, in the map's local frame.
@@ -38,7 +38,7 @@ struct MapLevel {
   int width = 0;
   int height = 0;
   double resolution_m = 0;
-  Point2 lower_left;              ///< outer corner of cell (0, 0), local frame
+  Point2 lower_left;  ///< outer corner of cell (0, 0), local frame
   std::vector<CellState> state;
   std::vector<float> wall_distance_m;  ///< cell centre to nearest occupied cell's centre; kFarFromWalls if none
 

@@ -54,8 +54,8 @@ double mean_manhattan(const MapLevel& fixed, const MapLevel& moving, const Pose2
       const int r = to.row(p);
       const int inside_c = std::clamp(c, 0, fixed.width - 1);
       const int inside_r = std::clamp(r, 0, fixed.height - 1);
-      sum += std::abs(c - inside_c) + std::abs(r - inside_r) +
-             static_cast<double>(distance.at<float>(inside_r, inside_c));
+      sum +=
+          std::abs(c - inside_c) + std::abs(r - inside_r) + static_cast<double>(distance.at<float>(inside_r, inside_c));
       count += 1;
     }
   }
@@ -84,16 +84,19 @@ void EvaluatorOptions::describe(OptionList& list) {
 std::vector<std::pair<std::string, double>> Figures::named() const {
   return {{"evidence_m", evidence_m},
           {"conflict_share", conflict_share},
+          {"far_conflict_share", far_conflict_share},
           {"same_side_share", same_side_share},
           {"source_walls_m", source_in_target.all_m},
           {"source_confirmed_m", source_in_target.confirmed_m},
           {"source_same_side_m", source_in_target.same_side_m},
           {"source_in_free_m", source_in_target.in_free_m},
+          {"source_far_in_free_m", source_in_target.far_in_free_m},
           {"source_unseen_m", source_in_target.unseen_m},
           {"target_walls_m", target_in_source.all_m},
           {"target_confirmed_m", target_in_source.confirmed_m},
           {"target_same_side_m", target_in_source.same_side_m},
           {"target_in_free_m", target_in_source.in_free_m},
+          {"target_far_in_free_m", target_in_source.far_in_free_m},
           {"target_unseen_m", target_in_source.unseen_m},
           {"overlap_area_m2", overlap_area_m2},
           {"overlap_share", overlap_share},
@@ -167,6 +170,8 @@ WallMeeting Evaluator::meet(const Side& fixed, const Side& moving, const Pose2& 
   double confirmed = 0;
   double same_side = 0;
   double in_free = 0;
+  double far_in_free = 0;
+  const float far_m = static_cast<float>(3 * options_.tolerance_m);
   for (const SidedWall& wall : moving.walls) {
     const int column = to.column(wall.at);
     const int row = to.row(wall.at);
@@ -180,6 +185,7 @@ WallMeeting Evaluator::meet(const Side& fixed, const Side& moving, const Pose2& 
       same_side += wall.has_side ? (seen_from >> octant) & 1 : 0.5;
     } else if (level.state[at] == CellState::kOpen && level.wall_distance_m[at] > clear_m) {
       in_free += 1;
+      far_in_free += level.wall_distance_m[at] > far_m ? 1 : 0;
     }
   }
   const double unit = moving.metres_a_wall;
@@ -188,6 +194,7 @@ WallMeeting Evaluator::meet(const Side& fixed, const Side& moving, const Pose2& 
           .confirmed_m = confirmed * unit,
           .same_side_m = same_side * unit,
           .in_free_m = in_free * unit,
+          .far_in_free_m = far_in_free * unit,
           .unseen_m = (all - confirmed - in_free) * unit};
 }
 
@@ -202,9 +209,11 @@ Figures Evaluator::wall_figures(const Pose2& target_from_source) const {
   f.target_in_source = meet(source_, target_, inverse(local));
   const double same_side = f.source_in_target.same_side_m + f.target_in_source.same_side_m;
   const double in_free = f.source_in_target.in_free_m + f.target_in_source.in_free_m;
+  const double far_in_free = f.source_in_target.far_in_free_m + f.target_in_source.far_in_free_m;
   const double confirmed = f.source_in_target.confirmed_m + f.target_in_source.confirmed_m;
   f.evidence_m = same_side - options_.conflict_weight * in_free;
   f.conflict_share = share(in_free, same_side);
+  f.far_conflict_share = share(far_in_free, same_side);
   f.same_side_share = confirmed > 0 ? same_side / confirmed : 0;
   return f;
 }
@@ -274,7 +283,8 @@ void Evaluator::add_random_walk_figures(Figures& figures, const Pose2& local) co
     return;
   }
   for (const CellState state : {CellState::kOpen, CellState::kWall}) {  // Eq. 2.6
-    figures.psi_cells += mean_manhattan(target, source, local, state) + mean_manhattan(source, target, inverse(local), state);
+    figures.psi_cells +=
+        mean_manhattan(target, source, local, state) + mean_manhattan(source, target, inverse(local), state);
   }
   figures.delta =
       figures.psi_cells + options_.c_lock * (figures.disagreement_cells - figures.agreement_cells);  // Eq. 2.5

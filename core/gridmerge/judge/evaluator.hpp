@@ -23,11 +23,12 @@ struct EvaluatorOptions {
 /// What the walls of one map meet in the other. Lengths [m]: cells times resolution, so a wall two cells thick counts
 /// twice.
 struct WallMeeting {
-  double all_m = 0;        ///< every wall cell
-  double confirmed_m = 0;  ///< a wall of the other map lies within the tolerance ...
-  double same_side_m = 0;  ///< ... and was seen from the same side
-  double in_free_m = 0;    ///< stands in the other map's free space, beyond the tolerance of any wall
-  double unseen_m = 0;     ///< the rest: the other map does not know
+  double all_m = 0;          ///< every wall cell
+  double confirmed_m = 0;    ///< a wall of the other map lies within the tolerance ...
+  double same_side_m = 0;    ///< ... and was seen from the same side
+  double in_free_m = 0;      ///< stands in the other map's free space, beyond the tolerance of any wall
+  double far_in_free_m = 0;  ///< of in_free_m: farther than three tolerances from any wall, so no mere drift
+  double unseen_m = 0;       ///< the rest: the other map does not know
 };
 
 /// Everything by which a pose is judged. All of it is symmetric: swap the maps, invert the pose, and it stays.
@@ -37,20 +38,21 @@ struct Figures {
   WallMeeting target_in_source;
   double evidence_m = 0;      ///< same_side_m - conflict_weight * in_free_m, both ways: what hypotheses are ranked by
   double conflict_share = 0;  ///< in_free_m / (in_free_m + same_side_m), both ways
-  double same_side_share = 0; ///< same_side_m / confirmed_m, both ways
+  double far_conflict_share = 0;  ///< far_in_free_m / (far_in_free_m + same_side_m), both ways
+  double same_side_share = 0;     ///< same_side_m / confirmed_m, both ways
 
   // Cell by cell, source cells read on the target's nearest cells.
-  double overlap_area_m2 = 0;   ///< known in both
-  double overlap_share = 0;     ///< of the smaller map's known area
-  double agreement_cells = 0;   ///< agr: known in both and equal
+  double overlap_area_m2 = 0;     ///< known in both
+  double overlap_share = 0;       ///< of the smaller map's known area
+  double agreement_cells = 0;     ///< agr: known in both and equal
   double disagreement_cells = 0;  ///< dis
-  double acceptance_index = 0;  ///< ai, Eq. 2.8 [birk2006]; 0 where nothing overlaps
-  double fitness = 0;           ///< F, Eq. 3.5 [li2013]: sum of the target's occupancy (0..1) under the source's walls
+  double acceptance_index = 0;    ///< ai, Eq. 2.8 [birk2006]; 0 where nothing overlaps
+  double fitness = 0;  ///< F, Eq. 3.5 [li2013]: sum of the target's occupancy (0..1) under the source's walls
   double mutual_information_bit = 0;  ///< of free/occupied in the overlap, per cell
 
   // The random walk's figures [birk2006], at PreparedMap level 2.
-  double psi_cells = 0;   ///< psi, Eq. 2.6, 2.7: lower is better
-  double delta = 0;       ///< psi + c_lock (dis - agr), Eq. 2.5: lower is better
+  double psi_cells = 0;  ///< psi, Eq. 2.6, 2.7: lower is better
+  double delta = 0;      ///< psi + c_lock (dis - agr), Eq. 2.5: lower is better
 
   /// Name and value of each, in the order above; stable names, as in JSON and CSV.
   [[nodiscard]] std::vector<std::pair<std::string, double>> named() const;

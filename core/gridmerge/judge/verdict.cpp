@@ -18,14 +18,20 @@ std::string percent(double share) { return fixed(100 * share, 0) + " %"; }
 
 double same_side_m(const Figures& f) { return f.source_in_target.same_side_m + f.target_in_source.same_side_m; }
 double in_free_m(const Figures& f) { return f.source_in_target.in_free_m + f.target_in_source.in_free_m; }
+double far_in_free_m(const Figures& f) { return f.source_in_target.far_in_free_m + f.target_in_source.far_in_free_m; }
 
-double confidence_of(const Figures& f, const Verdict& v, const VerdictOptions& o) {
+/// The logistic function of the figures, for a given lead (0..1).
+double confidence_of(const Figures& f, double lead, const VerdictOptions& o) {
   if (f.evidence_m <= 0) {
     return 0;
   }
+  // Walls that stand a little off a wall are drift, or a bent map; those far from any are another place.
+  const double near_m = in_free_m(f) - far_in_free_m(f);
+  const double near_conflict = near_m / (near_m + same_side_m(f));
   const double sum = o.bias + o.per_log_same_side * std::log(std::max(1.0, same_side_m(f))) +
-                     o.per_conflict_share * f.conflict_share + o.per_lead * v.lead +
-                     o.per_log_lead * std::log(std::max(0.1, v.lead_m)) + o.per_same_side_share * f.same_side_share;
+                     o.per_near_conflict * near_conflict + o.per_far_conflict * f.far_conflict_share +
+                     o.per_lead * lead + o.per_log_overlap * std::log(std::max(1.0, f.overlap_area_m2)) +
+                     o.per_mutual_information * f.mutual_information_bit + o.per_overlap_share * f.overlap_share;
   return 1 / (1 + std::exp(-sum));
 }
 
@@ -80,10 +86,16 @@ void VerdictOptions::describe(OptionList& list) {
       .add("bias", bias, -1e3, 1e3, {"", "Confidence: constant term of the logistic function.", ""})
       .add("per_log_same_side", per_log_same_side, -1e3, 1e3,
            {"", "Confidence: per natural logarithm of the wall seen from the same side [m].", ""})
-      .add("per_conflict_share", per_conflict_share, -1e3, 1e3, {"", "Confidence: per unit of conflict_share.", ""})
+      .add("per_near_conflict", per_near_conflict, -1e3, 1e3,
+           {"", "Confidence: per unit of the share of walls in free space within three tolerances of a wall.", ""})
+      .add("per_far_conflict", per_far_conflict, -1e3, 1e3, {"", "Confidence: per unit of far_conflict_share.", ""})
       .add("per_lead", per_lead, -1e3, 1e3, {"", "Confidence: per unit of lead.", ""})
-      .add("per_log_lead", per_log_lead, -1e3, 1e3, {"", "Confidence: per natural logarithm of the lead [m].", ""})
-      .add("per_same_side_share", per_same_side_share, -1e3, 1e3, {"", "Confidence: per unit of same_side_share.", ""})
+      .add("per_log_overlap", per_log_overlap, -1e3, 1e3,
+           {"", "Confidence: per natural logarithm of the area known in both [m2].", ""})
+      .add("per_mutual_information", per_mutual_information, -1e3, 1e3,
+           {"", "Confidence: per bit of mutual information a cell.", ""})
+      .add("per_overlap_share", per_overlap_share, -1e3, 1e3,
+           {"", "Confidence: per unit of overlap_share (of the smaller map).", ""})
       .add("distinct_m", distinct_m, 0.01, 100,
            {"m", "Poses farther apart than this, at the source's centre, are different answers.",
             "Raise it for maps so bent that one pose cannot be told from the next."})
@@ -102,16 +114,17 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_l
   const double other = ranked.size() > 1 ? std::max(0.0, ranked[1].figures.evidence_m) : 0;
   v.lead_m = std::max(0.0, best.evidence_m - other);
   v.lead = best.evidence_m > 0 ? v.lead_m / best.evidence_m : 0;
-  v.deviations = random_level.deviation_m > 0
-                     ? (best.evidence_m - random_level.mean_m) / random_level.deviation_m
-                     : 0;
-  v.confidence = confidence_of(best, v, o);
+  v.deviations = random_level.deviation_m > 0 ? (best.evidence_m - random_level.mean_m) / random_level.deviation_m : 0;
+  v.confidence = confidence_of(best, v.lead, o);
+  // How sure one could be if no other pose came near: what is missing then is missing in the maps.
+  const double unrivalled = confidence_of(best, 1, o);
 
   const std::string agreeing = fixed(same_side_m(best), 1) + " m of wall agree, " + fixed(in_free_m(best), 1) +
-                               " m stand in the other's free space (" + percent(best.conflict_share) + ")";
+                               " m stand in the other's free space (" + percent(best.conflict_share) + "), over " +
+                               fixed(best.overlap_area_m2, 0) + " m2 known in both";
   const std::string leading = "the next distinct pose has " + percent(1 - v.lead) + " of the evidence";
-  const std::string standing = "the evidence stands " + fixed(v.deviations, 1) +
-                               " standard deviations above random poses";
+  const std::string standing =
+      "the evidence stands " + fixed(v.deviations, 1) + " standard deviations above random poses";
   // What speaks against overlap at all, and what speaks only against this pose.
   std::vector<std::string> nothing;
   std::vector<std::string> doubts;
@@ -126,12 +139,13 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_l
   if (best.conflict_share > o.max_conflict_share) {
     nothing.push_back("too much conflict: " + agreeing + "; at most " + percent(o.max_conflict_share) + " wanted");
   }
-  if (v.lead < o.min_lead) {
-    doubts.push_back("another pose fits as well: " + leading);
+  if (v.confidence < o.min_confidence && unrivalled < o.min_confidence) {
+    nothing.push_back("too little speaks for an overlap: confidence " + fixed(v.confidence, 2) + ", and " +
+                      fixed(unrivalled, 2) + " if no other pose came near; " + fixed(o.min_confidence, 2) + " wanted");
   }
-  if (v.confidence < o.min_confidence) {
-    doubts.push_back("not sure enough: confidence " + fixed(v.confidence, 2) + " of " + fixed(o.min_confidence, 2) +
-                     " wanted");
+  if (v.lead < o.min_lead || (v.confidence < o.min_confidence && nothing.empty())) {
+    doubts.push_back("another pose fits nearly as well: " + leading + ", confidence " + fixed(v.confidence, 2) +
+                     " of " + fixed(o.min_confidence, 2) + " wanted");
   }
   if (!nothing.empty()) {
     v.outcome = Outcome::kNoOverlap;

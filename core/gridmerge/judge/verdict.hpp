@@ -24,24 +24,26 @@ enum class Outcome {
 /// A pose with what the Evaluator says of it.
 struct Hypothesis {
   PoseEstimate target_from_source;  ///< between map frames
-  Figures figures;                  ///< all of them for the first hypothesis, the wall figures for the others
+  Figures figures;                  ///< all of them for the first two hypotheses, the wall figures for the others
   double method_score = 0;
 };
 
 struct VerdictOptions {
   // Gates: none may be broken in a merge.
-  double min_same_side_m = 12;
-  double min_lead = 0.1;
-  double max_conflict_share = 0.3;
-  double min_deviations = 3;
+  double min_same_side_m = 10;
+  double min_lead = 0.08;
+  double max_conflict_share = 0.33;
+  double min_deviations = 1.5;
   double min_confidence = 0.9;
-  // The confidence: a logistic function of the figures.
-  double bias = -4.0;
-  double per_log_same_side = 1.0;
-  double per_conflict_share = -10;
-  double per_lead = 3;
-  double per_log_lead = 0.5;
-  double per_same_side_share = 3;
+  // The confidence: a logistic function of seven figures (docs/verdict.md says how the weights were found).
+  double bias = -11.7;
+  double per_log_same_side = 0.58;
+  double per_near_conflict = -18.4;
+  double per_far_conflict = -38;
+  double per_lead = 4.8;
+  double per_log_overlap = 2.24;
+  double per_mutual_information = 14;
+  double per_overlap_share = 4.3;
   // When poses count as different answers.
   double distinct_m = 1.0;
   double distinct_deg = 6;

@@ -1,0 +1,128 @@
+#include "cli/configuration.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <stdexcept>
+#include <thread>
+
+#include "cli/usage_error.hpp"
+#include "config/config_file.hpp"
+#include "gridmerge/base/error.hpp"
+
+namespace gridmerge::cli {
+namespace {
+
+template <typename Named>
+std::string names_of(const std::vector<Named>& all) {
+  std::string names;
+  for (const Named& one : all) {
+    names += (names.empty() ? "" : ", ") + one.name;
+  }
+  return names;
+}
+
+/// The one that the command line names, or else the file, or else the first.
+template <typename Named>
+const Named& chosen(const std::vector<Named>& all, const std::string& key, const std::string& from_command_line,
+                    ConfigFile& file) {
+  const std::optional<std::string> from_file = file.value(key);
+  const std::string name = from_command_line.empty() ? from_file.value_or(all.front().name) : from_command_line;
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
+  if (found != all.end()) {
+    return *found;
+  }
+  const std::string rule = "is not known; known: " + names_of(all);
+  if (!from_command_line.empty()) {
+    throw UsageError("--" + key + " " + name + ": " + rule);
+  }
+  file.reject(key, rule);
+  return all.front();
+}
+
+/// Applies one "section.key=value". @return the problem, or an empty string
+std::string apply_setting(const std::string& setting, std::vector<Configuration::Section>& sections) {
+  const std::size_t equals = setting.find('=');
+  const std::size_t dot = setting.find('.');
+  if (equals == std::string::npos || dot == std::string::npos || dot > equals) {
+    return "must be SECTION.KEY=VALUE; sections: " + names_of(sections);
+  }
+  const std::string name = setting.substr(0, dot);
+  const auto section = std::find_if(sections.begin(), sections.end(), [&](const auto& s) { return s.name == name; });
+  if (section == sections.end()) {
+    return "unknown section '" + name + "'; known sections: " + names_of(sections);
+  }
+  return section->options.set(setting.substr(dot + 1, equals - dot - 1), setting.substr(equals + 1));
+}
+
+}  // namespace
+
+void RunOptions::describe(OptionList& list) {
+  list.add("seed", seed, 0, std::numeric_limits<int>::max(),
+           {"", "All chance comes from it: the same seed gives the same answer.",
+            "Try another one to see whether an answer hangs by chance."})
+      .add("threads", threads, 0, 1024,
+           {"", "How many threads work at a time; 0: as many as the machine has.", "Does not change the answer."});
+}
+
+Configuration::Configuration(const MethodRegistry& registry, const ConfigurationChoice& choice) {
+  ConfigFile file = choice.file.empty() ? ConfigFile::parse("", "") : ConfigFile::read(choice.file);
+  const MethodEntry& method = chosen(registry.entries(), "method", choice.method, file);
+  const MethodProfile& profile = chosen(method.profiles, "profile", choice.profile, file);
+  method_ = method.name;
+  profile_ = profile.name;
+  method_config_ = profile.config();
+
+  OptionList run = run_options();
+  std::vector<Section> parts = sections();
+  file.apply(ConfigFile::kTopLevel, run);
+  for (Section& part : parts) {
+    file.apply(part.name, part.options);
+  }
+  file.check();
+
+  std::string problems;
+  const auto note = [&](const std::string& where, const std::string& problem) {
+    if (!problem.empty()) {
+      problems += (problems.empty() ? "" : "\n") + where + ": " + problem;
+    }
+  };
+  if (!choice.seed.empty()) {
+    note("--seed", run.set("seed", choice.seed));
+  }
+  if (!choice.threads.empty()) {
+    note("--threads", run.set("threads", choice.threads));
+  }
+  std::set<std::string> given;
+  for (const std::string& setting : choice.set) {
+    const std::string key = setting.substr(0, setting.find('='));
+    note("--set " + setting, given.insert(key).second ? apply_setting(setting, parts) : "'" + key + "' is given twice");
+  }
+  if (!problems.empty()) {
+    throw UsageError(problems);
+  }
+  try {  // options that do not go together are told here, not in the middle of the work
+    merger_ = method_config_->make();
+    (void)PreparedMap(unknown_grid({.width = 1, .height = 1, .resolution_m = 1, .map_from_grid = {}}), 1,
+                      pipeline_.prepare);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(choice.file.empty() ? "--set" : choice.file, error.what());
+  }
+}
+
+int Configuration::threads() const {
+  const int all = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return run_.threads == 0 ? all : run_.threads;
+}
+
+std::vector<Configuration::Section> Configuration::sections() {
+  return {{method_, "The method: proposes poses.", method_config_->options()},
+          {"pipeline", "The way from two maps to a verdict.", option_list(pipeline_)},
+          {"prepare", "Makes the maps ready.", option_list(pipeline_.prepare)},
+          {"refine", "Brings the best poses to a fraction of a cell.", option_list(pipeline_.refinement)},
+          {"evaluator", "Measures how well a pose fits.", option_list(pipeline_.evaluator)},
+          {"verdict", "Decides from the figures whether to merge.", option_list(pipeline_.verdict)},
+          {"fuse", "Makes one map of those that are merged.", option_list(fuse_)}};
+}
+
+}  // namespace gridmerge::cli

@@ -1,0 +1,72 @@
+#pragma once
+/// What a run is made of: the built-in defaults, changed by a configuration file, changed by the command line.
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gridmerge/align/pipeline.hpp"
+#include "gridmerge/align/registry.hpp"
+#include "gridmerge/fuse/fuse.hpp"
+
+namespace gridmerge::cli {
+
+/// What the command line says of the configuration, as given; empty where it says nothing.
+struct ConfigurationChoice {
+  std::string file;
+  std::string method;
+  std::string profile;
+  std::string seed;
+  std::string threads;
+  std::vector<std::string> set;  ///< "section.key=value"
+
+  friend bool operator==(const ConfigurationChoice&, const ConfigurationChoice&) = default;
+};
+
+/// The options that stand outside of every section.
+struct RunOptions {
+  int seed = 1;
+  int threads = 0;
+
+  void describe(OptionList& list);
+};
+
+/// The effective configuration. Everything in it has been checked.
+class Configuration {
+ public:
+  /// A part of the pipeline with its options, as in a configuration file.
+  struct Section {
+    std::string name;
+    std::string about;  ///< one sentence
+    OptionList options;
+  };
+
+  /// @throws InputError with every problem of the file, or UsageError with every problem of the rest
+  Configuration(const MethodRegistry& registry, const ConfigurationChoice& choice);
+  Configuration(const Configuration&) = delete;
+  Configuration& operator=(const Configuration&) = delete;
+
+  [[nodiscard]] const std::string& method() const { return method_; }
+  [[nodiscard]] const std::string& profile() const { return profile_; }
+  [[nodiscard]] const Merger& merger() const { return *merger_; }
+  [[nodiscard]] const PipelineOptions& pipeline() const { return pipeline_; }
+  [[nodiscard]] const FuseOptions& fuse() const { return fuse_; }
+  [[nodiscard]] std::uint64_t seed() const { return static_cast<std::uint64_t>(run_.seed); }
+  [[nodiscard]] int threads() const;  ///< at least 1
+
+  /// Bound to this object, as are the sections.
+  [[nodiscard]] OptionList run_options() { return option_list(run_); }
+  /// The method first, then in the order of the pipeline.
+  [[nodiscard]] std::vector<Section> sections();
+
+ private:
+  std::string method_;
+  std::string profile_;
+  RunOptions run_;
+  std::unique_ptr<MethodConfig> method_config_;
+  std::unique_ptr<Merger> merger_;
+  PipelineOptions pipeline_;
+  FuseOptions fuse_;
+};
+
+}  // namespace gridmerge::cli

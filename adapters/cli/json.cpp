@@ -1,0 +1,94 @@
+#include "cli/json.hpp"
+
+#include "cli/text.hpp"
+
+namespace gridmerge::cli {
+
+Json pose_json(const Pose2& pose) { return {{"x", pose.x_m}, {"y", pose.y_m}, {"theta", pose.theta_rad}}; }
+
+Json covariance_json(const std::optional<PoseCovariance>& covariance) {
+  if (!covariance) {
+    return nullptr;
+  }
+  Json rows = Json::array();
+  for (Eigen::Index row = 0; row < 3; ++row) {
+    rows.push_back({(*covariance)(row, 0), (*covariance)(row, 1), (*covariance)(row, 2)});
+  }
+  return rows;
+}
+
+Json figures_json(const Figures& figures, const Verdict& verdict, const RandomLevel& random_level) {
+  Json json = Json::object();
+  for (const auto& [name, value] : figures.named()) {
+    json[name] = value;
+  }
+  json["lead"] = verdict.lead;
+  json["lead_m"] = verdict.lead_m;
+  json["deviations"] = verdict.deviations;
+  json["random_mean_m"] = random_level.mean_m;
+  json["random_deviation_m"] = random_level.deviation_m;
+  json["random_poses"] = random_level.poses;
+  return json;
+}
+
+Json alignment_json(const Alignment& alignment) {
+  const Hypothesis* best = alignment.hypotheses.empty() ? nullptr : &alignment.hypotheses.front();
+  Json hypotheses = Json::array();
+  for (const Hypothesis& one : alignment.hypotheses) {
+    const Figures& f = one.figures;
+    const double best_m = best->figures.evidence_m;
+    hypotheses.push_back({{"transform", pose_json(one.target_from_source.pose)},
+                          {"covariance", covariance_json(one.target_from_source.covariance)},
+                          {"evidence_m", f.evidence_m},
+                          {"evidence_share", best_m > 0 ? Json(f.evidence_m / best_m) : Json()},  // of the best
+                          {"same_side_m", f.source_in_target.same_side_m + f.target_in_source.same_side_m},
+                          {"in_free_m", f.source_in_target.in_free_m + f.target_in_source.in_free_m},
+                          {"conflict_share", f.conflict_share},
+                          {"same_side_share", f.same_side_share},
+                          {"method_score", one.method_score}});
+  }
+  return {{"status", status_of(alignment.outcome)},
+          {"transform", best == nullptr ? Json() : pose_json(best->target_from_source.pose)},
+          {"covariance", best == nullptr ? Json() : covariance_json(best->target_from_source.covariance)},
+          {"confidence", alignment.confidence},
+          {"reasons", reasons_of(alignment)},
+          {"hypotheses", hypotheses},
+          {"figures",
+           best == nullptr ? Json::object() : figures_json(best->figures, alignment.verdict, alignment.random_level)},
+          {"iterations", alignment.iterations},
+          {"stopped", alignment.stopped}};
+}
+
+Json seconds_json(double load, const StepSeconds& seconds) {
+  return {
+      {"load", load},           {"prepare", seconds.prepare}, {"propose", seconds.propose}, {"refine", seconds.refine},
+      {"judge", seconds.judge}, {"align", seconds.align}};
+}
+
+Json configuration_json(Configuration& configuration) {
+  Json options = Json::object();
+  for (const Configuration::Section& section : configuration.sections()) {
+    options[section.name] = options_json(section.options);
+  }
+  return {{"method", configuration.method()},
+          {"profile", configuration.profile()},
+          {"seed", configuration.seed()},
+          {"threads", configuration.threads()},
+          {"options", options}};
+}
+
+Json options_json(const OptionList& options) {
+  Json json = Json::object();
+  for (const OptionField& field : options.fields()) {
+    json[field.key] = option_value_json(field);
+  }
+  return json;
+}
+
+Json option_value_json(const OptionField& field) {
+  return std::visit([](const auto* value) { return Json(*value); }, field.value);
+}
+
+std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+}  // namespace gridmerge::cli

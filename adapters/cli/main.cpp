@@ -1,0 +1,34 @@
+/// gridmerge: the command line. Whatever went wrong is told here, in one place.
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+
+#include "cli/program.hpp"
+#include "cli/usage_error.hpp"
+#include "gridmerge/base/error.hpp"
+
+namespace {
+
+int fail(const std::string& what, int status) {
+  std::cerr << "gridmerge: " << what << '\n';
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace gridmerge::cli;
+  try {
+    const int status = run_program(argc, argv, std::cout);
+    return std::cout.flush() ? status : fail("standard output: cannot be written", kInputError);
+  } catch (const UsageError& error) {
+    return fail(error.what(), kWrongUsage);
+  } catch (const gridmerge::InputError& error) {
+    return fail(error.what(), kInputError);
+  } catch (const std::bad_alloc&) {
+    return fail("there is not enough memory for these maps", kInputError);
+  } catch (const std::exception& error) {
+    return fail(error.what(), kInputError);
+  }
+}

@@ -1,0 +1,31 @@
+#pragma once
+/// Results in words, for people.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gridmerge/align/pipeline.hpp"
+
+namespace gridmerge::cli {
+
+/// With so many digits behind the point.
+[[nodiscard]] std::string fixed(double value, int digits);
+/// The shortest text that reads back as the same number.
+[[nodiscard]] std::string exact(double value);
+/// "x 1.234 m, y -0.500 m, theta 1.5708 rad (90.00 deg)"
+[[nodiscard]] std::string pose_text(const Pose2& pose);
+/// "0.012 m, 0.010 m, 0.05 deg" along x, y and theta; "not known".
+[[nodiscard]] std::string deviation_text(const std::optional<PoseCovariance>& covariance);
+/// "merged", "ambiguous", "no_overlap" or "declined": stopped before there was any pose is declined, too.
+[[nodiscard]] std::string status_of(Outcome outcome);
+/// Why the answer is what it is; never empty.
+[[nodiscard]] std::vector<std::string> reasons_of(const Alignment& alignment);
+/// The verdict in one sentence.
+[[nodiscard]] std::string verdict_text(Outcome outcome, double confidence);
+/// A line "  - ..." for each.
+[[nodiscard]] std::string list_text(const std::vector<std::string>& items);
+
+/// The whole answer: verdict, pose, reasons, next hypotheses, time.
+[[nodiscard]] std::string alignment_text(const Alignment& alignment, double load_seconds);
+
+}  // namespace gridmerge::cli
