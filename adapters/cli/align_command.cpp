@@ -46,6 +46,7 @@ int run_align(const AlignArguments& arguments, const MethodRegistry& methods, st
     Json answer = alignment_json(alignment);
     answer["target"] = arguments.target;
     answer["source"] = arguments.source;
+    answer["prior"] = prior_json(prior);
     answer.update(configuration_json(configuration));
     answer["seconds"] = seconds_json(load.count(), alignment.seconds);
     out << json_text(answer);

@@ -38,7 +38,7 @@ class OnePose final : public Merger {
 };
 
 std::string evaluation_text(const Alignment& answer) {
-  std::string text = "On this pose alone, without another to compare it with: " + status_of(answer.outcome) +
+  std::string text = "This pose, against the best others that a sweep over all poses finds: " + status_of(answer.outcome) +
                      ", confidence " + fixed(answer.confidence, 2) + "\n\nWhy\n" + list_text(reasons_of(answer));
   if (answer.hypotheses.empty()) {
     return text;
@@ -68,7 +68,7 @@ int run_evaluate(const EvaluateArguments& arguments, const MethodRegistry& metho
                                  {.seed = configuration.seed(), .num_threads = configuration.threads(), .stop = {}});
   if (arguments.json) {
     Json json = alignment_json(answer);
-    for (const char* key : {"covariance", "hypotheses", "iterations", "stopped"}) {
+    for (const char* key : {"covariance", "iterations", "stopped"}) {
       json.erase(key);
     }
     json["target"] = arguments.target;

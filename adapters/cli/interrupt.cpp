@@ -1,7 +1,6 @@
 #include "cli/interrupt.hpp"
 
 #include <atomic>
-#include <csignal>
 #include <utility>
 
 namespace gridmerge::cli {
@@ -26,11 +25,11 @@ Interrupt::Interrupt(StopToken token) : token_(std::move(token)) {
   struct sigaction action = {};
   action.sa_handler = on_interrupt;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
-  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGINT, &action, &previous_);
 }
 
 Interrupt::~Interrupt() {
-  std::signal(SIGINT, SIG_DFL);
+  sigaction(SIGINT, &previous_, nullptr);
   watched = nullptr;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Ctrl-C ends a search, not the program: the best so far is still told.
 #include <chrono>
+#include <csignal>
 #include <optional>
 
 #include "gridmerge/base/stop_token.hpp"
@@ -24,6 +25,7 @@ class Interrupt {
 
  private:
   StopToken token_;
+  struct sigaction previous_ = {};
 };
 
 }  // namespace gridmerge::cli

@@ -59,6 +59,16 @@ Json alignment_json(const Alignment& alignment) {
           {"stopped", alignment.stopped}};
 }
 
+Json prior_json(const std::optional<PosePrior>& prior) {
+  if (!prior) {
+    return nullptr;
+  }
+  Json json = pose_json(prior->target_from_source);
+  json["radius_m"] = prior->radius_m ? Json(*prior->radius_m) : Json();
+  json["angle_deg"] = prior->angle_rad ? Json(degrees(*prior->angle_rad)) : Json();
+  return json;
+}
+
 Json seconds_json(double load, const StepSeconds& seconds) {
   return {
       {"load", load},           {"prepare", seconds.prepare}, {"propose", seconds.propose}, {"refine", seconds.refine},

@@ -19,6 +19,8 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json figures_json(const Figures& figures, const Verdict& verdict, const RandomLevel& random_level);
 /// status, transform, covariance, confidence, reasons, hypotheses, figures.
 [[nodiscard]] Json alignment_json(const Alignment& alignment);
+/// {x, y, theta, radius_m, angle_deg}; null where there is none
+[[nodiscard]] Json prior_json(const std::optional<PosePrior>& prior);
 /// load, prepare, propose, refine, judge, align: wall-clock time; `align` is all but `load`.
 [[nodiscard]] Json seconds_json(double load, const StepSeconds& seconds);
 /// method, profile, seed, threads, options: what the answer was found with.

@@ -181,6 +181,7 @@ int run_merge(MergeArguments arguments, const MethodRegistry& methods, std::ostr
   const bool write = !merge.merged.empty() && !interrupt.happened();
   Json report = report_json(merge, robots, arguments);
   report.update(configuration_json(configuration));
+  report["prior"] = prior_json(prior);
   report["written"] = write;
   report["seconds"] = {{"load", load}, {"merge", seconds_since(began) - load}};
   trace.write();

@@ -70,8 +70,9 @@ std::string alignment_text(const Alignment& alignment, double load_seconds) {
   const std::vector<Hypothesis>& hypotheses = alignment.hypotheses;
   if (!hypotheses.empty()) {
     const PoseEstimate& best = hypotheses.front().target_from_source;
-    text += "\nPose of B's map frame in A's\n  " + pose_text(best.pose) + "\n  standard deviation " +
-            deviation_text(best.covariance) + "\n";
+    const bool merged = alignment.outcome == Outcome::kMerged;
+    text += std::string("\n") + (merged ? "Pose" : "Best pose, not to be relied on,") + " of B's map frame in A's\n  " +
+            pose_text(best.pose) + "\n  standard deviation " + deviation_text(best.covariance) + "\n";
   }
   text += "\nWhy\n" + list_text(reasons_of(alignment));
   if (hypotheses.size() > 1) {

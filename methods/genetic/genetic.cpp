@@ -20,22 +20,6 @@ struct Individual {
 
 bool fitter(const Individual& a, const Individual& b) { return a.fitness > b.fitness; }
 
-/// The window a prior allows; none: anywhere.
-std::optional<SweepWindow> window_of(const AlignRequest& request) {
-  if (!request.prior || (!request.prior->radius_m && !request.prior->angle_rad)) {
-    return std::nullopt;
-  }
-  const double anywhere = request.target.radius_m() + request.source.radius_m();
-  return SweepWindow{.centre = to_local(request.prior->target_from_source, request.target, request.source),
-                     .radius_m = request.prior->radius_m.value_or(anywhere),
-                     .angle_rad = request.prior->angle_rad.value_or(kPi)};
-}
-
-bool inside(const Pose2& pose, const std::optional<SweepWindow>& window) {
-  return !window || (norm(pose.translation() - window->centre.translation()) <= window->radius_m &&
-                     std::abs(wrap_angle(pose.theta_rad - window->centre.theta_rad)) <= window->angle_rad);
-}
-
 /// Uniform over the window; over every pose at which the maps could touch, where there is none.
 Pose2 uniform_pose(RandomStream& random, const AlignRequest& request, const std::optional<SweepWindow>& window) {
   const SweepWindow all{
@@ -150,6 +134,7 @@ Proposal GeneticMerger::propose(const AlignRequest& request, const RunContext& c
         .angle_step_rad = radians(o.angle_step_deg), .max_cells = 420, .peaks_per_angle = 12, .fit = o.fit};
     const SweepResult found = correlation_sweep(request.target, request.source, window, sweep, context);
     proposal.stopped = found.stopped;
+    proposal.surveyed = !found.stopped;
     std::vector<Individual> peaks;
     for (const SweepPeak& peak : found.peaks) {
       peaks.push_back({peak.local_target_from_source, peak.score});

@@ -79,14 +79,15 @@ class Program : public ::testing::Test {
   static void TearDownTestSuite() { fs::remove_all(folder); }
 
   /// Runs `gridmerge` in the folder; arguments are words of a shell.
-  static Ended run(const std::string& arguments) {
-    const std::string command =
-        "cd '" + folder.string() + "' && '" GRIDMERGE_PROGRAM "' " + arguments + " >stdout.txt 2>stderr.txt </dev/null";
-    const int status = std::system(command.c_str());
-    Ended result{WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(folder / "stdout.txt"),
-                 content_of(folder / "stderr.txt")};
-    fs::remove(folder / "stdout.txt");
-    fs::remove(folder / "stderr.txt");
+  static Ended run(const std::string& arguments) { return shell("'" GRIDMERGE_PROGRAM "' " + arguments); }
+
+  /// The same, with a search that would last a minute, and Ctrl-C after two seconds.
+  static Ended interrupted(const std::string& arguments) {
+    const auto began = std::chrono::steady_clock::now();
+    const Ended result = shell("{ '" GRIDMERGE_PROGRAM "' " + arguments +
+                               " --profile paper --set genetic.iterations_per_epoch=1000000 --time-limit 60 & } && "
+                               "sleep 2 && kill -INT $! && wait $!");
+    EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(45)) << arguments;
     return result;
   }
 
@@ -99,6 +100,17 @@ class Program : public ::testing::Test {
     EXPECT_THAT(result.err, AllOf(StartsWith("gridmerge: "), EndsWith("\n"))) << arguments;
     EXPECT_EQ(names_in(folder), before) << arguments;
     return result.err;
+  }
+
+  static Ended shell(const std::string& command) {
+    const std::string in_folder =
+        "cd '" + folder.string() + "' && { " + command + "; } >stdout.txt 2>stderr.txt </dev/null";
+    const int status = std::system(in_folder.c_str());
+    Ended result{WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(folder / "stdout.txt"),
+                 content_of(folder / "stderr.txt")};
+    fs::remove(folder / "stdout.txt");
+    fs::remove(folder / "stderr.txt");
+    return result;
   }
 
   static Pose2 transform_of(const json& answer) {
@@ -149,6 +161,7 @@ TEST_F(AlignCommand, AnswersWithOneObjectThatHoldsAllThatIsPromised) {
                     Contains("deviations"), Contains("random_mean_m")));
   EXPECT_EQ(answer.at("method"), "genetic");
   EXPECT_EQ(answer.at("profile"), "default");
+  EXPECT_TRUE(answer.at("prior").is_null());
   EXPECT_EQ(answer.at("seed"), 7);
   EXPECT_EQ(answer.at("threads"), 2);
   EXPECT_THAT(keys_of(answer.at("options")),
@@ -205,6 +218,8 @@ TEST_F(AlignCommand, APriorWithRadiusAndAngleIsAFence) {
   const auto off = [&](const std::string& fence) {
     const Ended result = run("align a.yaml b.yaml --json --prior=" + prior.str() + fence);
     const json answer = result.answer();
+    EXPECT_NEAR(answer.at("prior").at("x"), wrong.x_m, 1e-3);
+    EXPECT_EQ(answer.at("prior").at("radius_m").is_null(), fence.empty());
     EXPECT_TRUE(answer.at("transform").is_object());
     return answer.at("transform").is_object() ? difference_at(centre_of_known(pair.source), transform_of(answer), wrong)
                                               : PoseDifference{};
@@ -245,21 +260,10 @@ TEST_F(AlignCommand, WritesEveryIterationToTheTraceFile) {
 }
 
 TEST_F(AlignCommand, CtrlCEndsTheSearchAndTellsTheBestSoFar) {
-  const auto began = std::chrono::steady_clock::now();
-  write(folder / "interrupt.sh",
-        "'" GRIDMERGE_PROGRAM
-        "' align a.yaml b.yaml --json --profile paper --set genetic.iterations_per_epoch=1000000 --time-limit 60 &\n"
-        "sleep 2\nkill -INT $!\nwait $!\n");
-  const std::string command = "cd '" + folder.string() + "' && sh interrupt.sh > interrupted.json 2> interrupted.txt";
-  const int status = std::system(command.c_str());
-  const json answer = json::parse(content_of(folder / "interrupted.json"));
-  EXPECT_EQ(WEXITSTATUS(status), 3);
-  EXPECT_EQ(answer.at("stopped"), true);
-  EXPECT_TRUE(answer.at("transform").is_object());
-  EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(45));
-  for (const char* file : {"interrupt.sh", "interrupted.json", "interrupted.txt"}) {
-    fs::remove(folder / file);
-  }
+  const Ended result = interrupted("align a.yaml b.yaml --json");
+  EXPECT_EQ(result.status, 3) << result.err;
+  EXPECT_EQ(result.answer().at("stopped"), true);
+  EXPECT_TRUE(result.answer().at("transform").is_object());
 }
 
 TEST_F(AlignCommand, ATimeLimitIsKept) {
@@ -337,6 +341,14 @@ TEST_F(MergeCommand, WritesNothingWhereNothingMerges) {
   EXPECT_EQ(as_json.answer().at("written"), false);
   EXPECT_TRUE(as_json.answer().at("islands").empty());
   EXPECT_EQ(as_json.answer().at("left_out").size(), 2U);
+}
+
+TEST_F(MergeCommand, CtrlCLeavesNothingBehind) {
+  const Ended result = interrupted("merge a.yaml b.yaml -o out --json");
+  EXPECT_EQ(result.status, 3) << result.err;
+  EXPECT_EQ(result.answer().at("stopped"), true);
+  EXPECT_EQ(result.answer().at("written"), false);
+  EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
 TEST_F(MergeCommand, KeepsAnOlderResultUntilThereIsANewOne) {

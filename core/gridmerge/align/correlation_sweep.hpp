@@ -27,6 +27,12 @@ struct SweepWindow {
   double angle_rad = kPi;
 };
 
+/// The window that a request's prior allows; none: anywhere. (A prior without radius and angle is no fence.)
+[[nodiscard]] std::optional<SweepWindow> window_of(const AlignRequest& request);
+
+/// Whether a pose between local frames lies in the window; always, where there is none.
+[[nodiscard]] bool inside(const Pose2& local_target_from_source, const std::optional<SweepWindow>& window);
+
 struct SweepPeak {
   Pose2 local_target_from_source;
   double score = 0;  ///< the smooth fitness at the sweep's resolution

@@ -50,6 +50,9 @@ struct Proposal {
   Population carry;                   ///< for the next epoch; empty where the method has none
   int iterations = 0;
   bool stopped = false;  ///< the stop token ended it early; the candidates are the best so far
+  /// The candidates hold the best distinct poses of all there are (or of the prior's fence), not of one basin only.
+  /// Where they do not, the pipeline seeks rivals itself: a lead over nobody is worth nothing.
+  bool surveyed = false;
 };
 
 struct MergerTraits {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "gridmerge/align/correlation_sweep.hpp"
 #include "gridmerge/base/parallel.hpp"
 
 namespace gridmerge {
@@ -47,8 +48,13 @@ void announce(const RunContext& context, const std::string& stage) {
 }
 
 /// The first of every group of poses that are one answer; ranked stays ranked.
-std::vector<Hypothesis> distinct(const std::vector<Hypothesis>& ranked, Point2 source_centre, const VerdictOptions& o,
+/// The method's best stays first: a rival that fits better only takes its lead.
+std::vector<Hypothesis> distinct(std::vector<Hypothesis> ranked, Point2 source_centre, const VerdictOptions& o,
                                  std::size_t at_most) {
+  const auto best = std::find_if(ranked.begin(), ranked.end(), [](const Hypothesis& one) { return one.proposed; });
+  if (best != ranked.end()) {
+    std::rotate(ranked.begin(), best, best + 1);
+  }
   std::vector<Hypothesis> kept;
   for (const Hypothesis& one : ranked) {
     const bool same_answer = std::any_of(kept.begin(), kept.end(), [&](const Hypothesis& other) {
@@ -64,6 +70,28 @@ std::vector<Hypothesis> distinct(const std::vector<Hypothesis>& ranked, Point2 s
     }
   }
   return kept;
+}
+
+/// The poses of a coarse sweep that stand out: what a method that climbs one hill has not looked at.
+std::vector<Candidate> rivals(const AlignRequest& request, const RunContext& context) {
+  constexpr std::size_t kRivals = 24;
+  const SweepOptions sweep{.angle_step_rad = radians(3), .max_cells = 300, .peaks_per_angle = 6, .fit = {}};
+  const SweepResult found = correlation_sweep(request.target, request.source, window_of(request), sweep, context);
+  std::vector<Candidate> candidates;
+  for (const SweepPeak& peak : found.peaks) {
+    const Pose2 pose = from_local(peak.local_target_from_source, request.target, request.source);
+    const bool taken = std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& other) {
+      const PoseDifference apart = difference_at(request.source.centre_in_map(), other.target_from_source, pose);
+      return apart.distance_m < 1 && apart.angle_rad < radians(6);
+    });
+    if (!taken) {
+      candidates.push_back({pose, peak.score});
+      if (candidates.size() == kRivals) {
+        break;
+      }
+    }
+  }
+  return candidates;
 }
 
 void rank(std::vector<Hypothesis>& hypotheses) {
@@ -119,27 +147,44 @@ Alignment align_prepared(const AlignRequest& request, const Merger& method, cons
   alignment.carry = std::move(proposal.carry);
   alignment.iterations = proposal.iterations;
   alignment.stopped = proposal.stopped;
+  std::vector<Candidate> candidates = std::move(proposal.candidates);
+  const std::size_t proposed = candidates.size();
+  if (!proposal.surveyed && proposed > 0 && !context.stop.stop_requested()) {
+    const std::vector<Candidate> others = rivals(request, context);
+    candidates.insert(candidates.end(), others.begin(), others.end());
+    proposal.surveyed = !context.stop.stop_requested();
+  }
   alignment.seconds.propose = watch.lap();
 
   const Evaluator evaluator(target, source, options.evaluator);
-  std::vector<Hypothesis> hypotheses(proposal.candidates.size());
+  std::vector<Hypothesis> hypotheses(candidates.size());
   parallel_for(hypotheses.size(), context.num_threads, [&](std::size_t i, std::size_t) {
-    const Candidate& candidate = proposal.candidates[i];
+    const Candidate& candidate = candidates[i];
     hypotheses[i] = {.target_from_source = {candidate.target_from_source, std::nullopt},
                      .figures = evaluator.wall_figures(candidate.target_from_source),
-                     .method_score = candidate.method_score};
+                     .method_score = candidate.method_score,
+                     .proposed = i < proposed};
   });
   rank(hypotheses);
   alignment.seconds.judge = watch.lap();
 
-  if (options.refine) {
+  if (options.refine || proposed < hypotheses.size()) {
+    const std::optional<SweepWindow> window = window_of(request);
     announce(context, "refine");
-    const std::size_t count = std::min(hypotheses.size(), static_cast<std::size_t>(options.refined_candidates));
+    // A rival that the pipeline found comes on top: the method's own best must not fall out of the refinement for it.
+    const auto own = static_cast<std::size_t>(options.refined_candidates);
+    const std::size_t count = std::min(hypotheses.size(), proposed < hypotheses.size() ? 2 * own : own);
     parallel_for(count, context.num_threads, [&](std::size_t i, std::size_t) {
       Hypothesis& one = hypotheses[i];
+      if (one.proposed && !options.refine) {
+        return;
+      }
       const PoseEstimate refined = refine(target, source, one.target_from_source.pose, options.refinement);
       const Figures figures = evaluator.wall_figures(refined.pose);
       one.target_from_source.covariance = refined.covariance;
+      if (!inside(to_local(refined.pose, target, source), window)) {
+        return;
+      }
       // The two disagree only where little agrees at all; the evidence is what is judged by.
       if (figures.evidence_m >= one.figures.evidence_m) {
         one.target_from_source.pose = refined.pose;
@@ -162,7 +207,7 @@ Alignment align_prepared(const AlignRequest& request, const Merger& method, cons
                  });
     alignment.random_level = evaluator.random_level(context.seed);
   }
-  alignment.verdict = judge(alignment.hypotheses, alignment.random_level, options.verdict);
+  alignment.verdict = judge(alignment.hypotheses, alignment.random_level, options.verdict, proposal.surveyed);
   alignment.outcome = alignment.hypotheses.empty() && alignment.stopped ? Outcome::kStopped : alignment.verdict.outcome;
   alignment.confidence = alignment.verdict.confidence;
   alignment.reasons = alignment.verdict.reasons;

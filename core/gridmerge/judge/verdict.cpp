@@ -104,7 +104,8 @@ void VerdictOptions::describe(OptionList& list) {
            {"m", "A direction less certain than this (standard deviation) is named among the reasons.", ""});
 }
 
-Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_level, const VerdictOptions& o) {
+Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_level, const VerdictOptions& o,
+              bool surveyed) {
   Verdict v;
   if (ranked.empty()) {
     v.reasons.push_back("no pose lays walls on walls without laying more of them into free space");
@@ -122,30 +123,42 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_l
   const std::string agreeing = fixed(same_side_m(best), 1) + " m of wall agree, " + fixed(in_free_m(best), 1) +
                                " m stand in the other's free space (" + percent(best.conflict_share) + "), over " +
                                fixed(best.overlap_area_m2, 0) + " m2 known in both";
-  const std::string leading = "the next distinct pose has " + percent(1 - v.lead) + " of the evidence";
+  const std::string leading = ranked.size() > 1
+                                  ? "the next distinct pose has " + percent(1 - v.lead) + " of the evidence"
+                                  : "no other pose was put forward";
   const std::string standing =
       "the evidence stands " + fixed(v.deviations, 1) + " standard deviations above random poses";
   // What speaks against overlap at all, and what speaks only against this pose.
   std::vector<std::string> nothing;
   std::vector<std::string> doubts;
   if (best.evidence_m <= 0) {
-    nothing.push_back("more walls stand in free space than on walls: " + agreeing);
+    nothing.push_back("more walls stand in free space than on walls: " + fixed(in_free_m(best), 1) + " m against " +
+                      fixed(same_side_m(best), 1) + " m");
   } else if (same_side_m(best) < o.min_same_side_m) {
-    nothing.push_back("too little in common: " + agreeing + "; at least " + fixed(o.min_same_side_m, 1) + " m wanted");
+    nothing.push_back("too little in common: " + fixed(same_side_m(best), 1) + " m of wall agree, at least " +
+                      fixed(o.min_same_side_m, 1) + " m wanted");
   }
   if (v.deviations < o.min_deviations) {
-    nothing.push_back(standing + "; at least " + fixed(o.min_deviations, 1) + " wanted");
+    nothing.push_back("no better than chance: " + fixed(v.deviations, 1) +
+                      " standard deviations above random poses, at least " + fixed(o.min_deviations, 1) + " wanted");
   }
   if (best.conflict_share > o.max_conflict_share) {
-    nothing.push_back("too much conflict: " + agreeing + "; at most " + percent(o.max_conflict_share) + " wanted");
+    nothing.push_back("too much conflict: " + percent(best.conflict_share) +
+                      " of the walls stand in the other's free space, at most " + percent(o.max_conflict_share) +
+                      " wanted");
   }
   if (v.confidence < o.min_confidence && unrivalled < o.min_confidence) {
     nothing.push_back("too little speaks for an overlap: confidence " + fixed(v.confidence, 2) + ", and " +
                       fixed(unrivalled, 2) + " if no other pose came near; " + fixed(o.min_confidence, 2) + " wanted");
   }
-  if (v.lead < o.min_lead || (v.confidence < o.min_confidence && nothing.empty())) {
-    doubts.push_back("another pose fits nearly as well: " + leading + ", confidence " + fixed(v.confidence, 2) +
-                     " of " + fixed(o.min_confidence, 2) + " wanted");
+  if (v.lead < o.min_lead) {
+    doubts.push_back("another pose fits about as well: " + leading);
+  } else if (v.confidence < o.min_confidence && nothing.empty()) {
+    doubts.push_back("not sure enough while another pose fits as well as it does: " + leading + "; confidence " +
+                     fixed(v.confidence, 2) + " of " + fixed(o.min_confidence, 2) + " wanted");
+  }
+  if (!surveyed) {
+    doubts.push_back("the search was cut short: other poses that fit as well may have been overlooked");
   }
   if (!nothing.empty()) {
     v.outcome = Outcome::kNoOverlap;

@@ -26,6 +26,7 @@ struct Hypothesis {
   PoseEstimate target_from_source;  ///< between map frames
   Figures figures;                  ///< all of them for the first two hypotheses, the wall figures for the others
   double method_score = 0;
+  bool proposed = true;  ///< by the method; false: a rival that the pipeline found
 };
 
 struct VerdictOptions {
@@ -62,8 +63,10 @@ struct Verdict {
   std::vector<std::string> reasons;  ///< in words, with figures; the decisive one first; never empty
 };
 
-/// @param ranked  hypotheses, best evidence first, no two closer than the verdict's distinct_m and distinct_deg
+/// @param ranked  the hypothesis to judge, then the others, best evidence first; no two closer than the verdict's
+///                distinct_m and distinct_deg
+/// @param surveyed  nobody has overlooked a rival; false: never merged
 [[nodiscard]] Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_level,
-                            const VerdictOptions& options);
+                            const VerdictOptions& options, bool surveyed = true);
 
 }  // namespace gridmerge

@@ -136,8 +136,7 @@ TEST(CorrelationSweep, EqualsSumsByHandAtOneAngle) {
       const PreparedMap target = tiny(seed, 81, 59);
       const PreparedMap source = tiny(seed + 100, width, height);
       const double angle = 0.3 + static_cast<double>(seed);
-      const SweepResult result =
-          correlation_sweep(target, source, one_angle(angle), at_most(1000000), {});
+      const SweepResult result = correlation_sweep(target, source, one_angle(angle), at_most(1000000), {});
       const ByHand by_hand(target, source, wrap_angle(angle));
       EXPECT_EQ(result.angles, 1);
       EXPECT_EQ(result.resolution_m, 0.2);

@@ -43,18 +43,18 @@ OccupancyGrid drawn(Place place, const View& view) {
   const Pose2 grid_from_place = Pose2{0, 0, -view.origin_yaw_rad} * inverse(view.place_from_map);
   Point2 low = grid_from_place * Point2{view.from_x_m, 0};
   Point2 high = low;
-  for (const Point2& corner :
-       {Point2{view.to_x_m, 0}, Point2{view.from_x_m, depth_m}, Point2{view.to_x_m, depth_m}}) {
+  for (const Point2& corner : {Point2{view.to_x_m, 0}, Point2{view.from_x_m, depth_m}, Point2{view.to_x_m, depth_m}}) {
     const Point2 at = grid_from_place * corner;
     low = {std::min(low.x_m, at.x_m), std::min(low.y_m, at.y_m)};
     high = {std::max(high.x_m, at.x_m), std::max(high.y_m, at.y_m)};
   }
   const auto cells = [&](double length_m) { return static_cast<int>(std::ceil(length_m / view.resolution_m)) + 2; };
-  OccupancyGrid grid = unknown_grid({.width = cells(high.x_m - low.x_m),
-                                     .height = cells(high.y_m - low.y_m),
-                                     .resolution_m = view.resolution_m,
-                                     .map_from_grid = Pose2{0, 0, view.origin_yaw_rad} *
-                                                      Pose2{low.x_m - view.resolution_m, low.y_m - view.resolution_m, 0}});
+  OccupancyGrid grid =
+      unknown_grid({.width = cells(high.x_m - low.x_m),
+                    .height = cells(high.y_m - low.y_m),
+                    .resolution_m = view.resolution_m,
+                    .map_from_grid = Pose2{0, 0, view.origin_yaw_rad} *
+                                     Pose2{low.x_m - view.resolution_m, low.y_m - view.resolution_m, 0}});
   for (int row = 0; row < grid.geometry.height; ++row) {
     for (int column = 0; column < grid.geometry.width; ++column) {
       const Point2 at = view.place_from_map * grid.geometry.cell_centre({column, row});

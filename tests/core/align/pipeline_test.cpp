@@ -20,10 +20,11 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// Proposes what the test tells it to.
+/// Proposes what the test tells it to, and claims to have overlooked nothing.
 class Told final : public Merger {
  public:
   explicit Told(std::vector<Pose2> poses) {
+    says.surveyed = true;
     for (const Pose2& pose : poses) {
       says.candidates.push_back({pose, static_cast<double>(says.candidates.size())});
     }
@@ -35,7 +36,7 @@ class Told final : public Merger {
     EXPECT_FALSE(request.source.walls().empty());
     EXPECT_EQ(request.target.resolution_m(), request.source.resolution_m());
     if (context.stop.stop_requested()) {
-      return {.candidates = {}, .carry = {}, .iterations = 0, .stopped = true};
+      return {.candidates = {}, .carry = {}, .iterations = 0, .stopped = true, .surveyed = false};
     }
     return says;
   }
@@ -61,8 +62,7 @@ struct FlatGrids {
     std::vector<Pose2> poses;
     RandomStream random(1, "wrong poses");
     for (int i = 0; i < wrong; ++i) {
-      poses.push_back(
-          {random.uniform(-12, 12), random.uniform(-12, 12), random.uniform(-kPi, kPi)});
+      poses.push_back({random.uniform(-12, 12), random.uniform(-12, 12), random.uniform(-kPi, kPi)});
       if (i == wrong / 2) {
         poses.push_back(truth * Pose2{0.06, -0.05, radians(0.8)});
       }
@@ -140,8 +140,7 @@ TEST(Pipeline, GivesTheInverseWhenTheMapsAreSwapped) {
     inverted.push_back(inverse(pose));
   }
   const Alignment forth = align(flat.input(), Told(flat.proposals()), {}, {});
-  const Alignment back =
-      align({.target = flat.source, .source = flat.target, .prior = {}}, Told(inverted), {}, {});
+  const Alignment back = align({.target = flat.source, .source = flat.target, .prior = {}}, Told(inverted), {}, {});
   EXPECT_EQ(back.outcome, forth.outcome);
   EXPECT_NEAR(back.confidence, forth.confidence, 0.05);
   const PoseDifference apart =
@@ -289,6 +288,76 @@ TEST(Pipeline, WeighsTheRivalEvenWhereOnlyOneHypothesisIsListed) {
   EXPECT_EQ(alignment.hypotheses.size(), 1U);
   EXPECT_LT(alignment.verdict.lead, 0.05);
   EXPECT_EQ(alignment.outcome, Outcome::kAmbiguous);
+}
+
+TEST(Pipeline, SeeksTheRivalsThatAMethodHasNotLookedFor) {
+  // One pose alone is proposed, and it is right; but turned round, the corridor fits as well.
+  const OccupancyGrid corridor = drawn(Place::kCorridor, {.place_from_map = {}, .from_x_m = 0, .to_x_m = 20});
+  const AlignInput input{.target = corridor, .source = corridor, .prior = {}};
+  Told method({Pose2{}});
+  EXPECT_EQ(align(input, method, {}, {}).hypotheses.size(), 1U);
+  method.says.surveyed = false;
+  const Alignment alignment = align(input, method, {}, {});
+  EXPECT_EQ(alignment.outcome, Outcome::kAmbiguous);
+  EXPECT_GE(alignment.hypotheses.size(), 2U);
+  EXPECT_TRUE(alignment.hypotheses.front().proposed);
+  EXPECT_FALSE(alignment.hypotheses.back().proposed);
+}
+
+TEST(Pipeline, MergesAMethodsOnlyPoseWhereNoRivalIsFound) {
+  const FlatGrids flat;
+  Told method({flat.truth * Pose2{0.06, -0.05, radians(0.8)}});
+  method.says.surveyed = false;
+  const Alignment alignment = align(flat.input(), method, {}, {.num_threads = 2});
+  EXPECT_EQ(alignment.outcome, Outcome::kMerged);
+  EXPECT_LT(flat.error(alignment.hypotheses.front().target_from_source.pose).distance_m, 0.015);
+  EXPECT_LT(alignment.verdict.lead, 1);  // somebody was found to lead over
+}
+
+TEST(Pipeline, DoesNotTakeARivalForTheMethodsAnswer) {
+  // What a method did not propose is not its answer, however well it fits.
+  const FlatGrids flat;
+  Told method({flat.truth * Pose2{3, 1, radians(70)}});
+  method.says.surveyed = false;
+  const Alignment alignment = align(flat.input(), method, {}, {});
+  EXPECT_NE(alignment.outcome, Outcome::kMerged);
+  ASSERT_THAT(alignment.hypotheses, Not(IsEmpty()));
+  EXPECT_TRUE(alignment.hypotheses.front().proposed);
+  EXPECT_GT(flat.error(alignment.hypotheses.front().target_from_source.pose).distance_m, 0.5);
+}
+
+TEST(Pipeline, DoesNotMergeWhereTheSearchForRivalsWasCutShort) {
+  /// Proposes, and then has no time left.
+  class Late final : public Merger {
+   public:
+    explicit Late(const Pose2& pose) : pose_(pose) {}
+    [[nodiscard]] MergerTraits traits() const override { return {}; }
+    [[nodiscard]] Proposal propose(const AlignRequest& /*request*/, const RunContext& context) const override {
+      context.stop.cancel();
+      return {.candidates = {{pose_, 1}}, .carry = {}, .iterations = 1, .stopped = true, .surveyed = false};
+    }
+
+   private:
+    Pose2 pose_;
+  };
+  const FlatGrids flat;
+  const Alignment alignment = align(flat.input(), Late(flat.truth), {}, {});
+  EXPECT_EQ(alignment.outcome, Outcome::kAmbiguous);
+  EXPECT_TRUE(alignment.stopped);
+  EXPECT_THAT(alignment.reasons, testing::Contains(HasSubstr("overlooked")));
+}
+
+TEST(Pipeline, RefinesNoPoseOutOfThePriorsFence) {
+  const FlatGrids flat;
+  const Pose2 beside = flat.truth * Pose2{0.1, 0.05, radians(1)};
+  AlignInput input = flat.input();
+  input.prior = PosePrior{.target_from_source = beside, .radius_m = 0.02, .angle_rad = radians(0.2)};
+  const Alignment alignment = align(input, Told({beside}), {}, {});
+  ASSERT_THAT(alignment.hypotheses, Not(IsEmpty()));
+  const PoseDifference off =
+      difference_at(centre_of_known(flat.source), alignment.hypotheses.front().target_from_source.pose, beside);
+  EXPECT_LE(off.distance_m, 0.02 + 1e-6);
+  EXPECT_LE(degrees(off.angle_rad), 0.2 + 1e-6);
 }
 
 TEST(Pipeline, TimesEveryStep) {

@@ -90,9 +90,9 @@ TEST(ThinnedWalls, CountAThickWallNoMoreThanAThinOneAndASpeckLittle) {
   std::vector<ThinnedWall> coarse = thinned_walls(map, map.level(1));
   ASSERT_EQ(coarse.size(), 3U);
   std::sort(coarse.begin(), coarse.end(), [](const auto& a, const auto& b) { return a.at.x_m < b.at.x_m; });
-  EXPECT_EQ(coarse[0].weight, 1);    // four cells of the two that cross it
-  EXPECT_EQ(coarse[1].weight, 1);    // two cells: crosses it
-  EXPECT_EQ(coarse[2].weight, 0.5);  // a speck
+  EXPECT_EQ(coarse[0].weight, 1);                                    // four cells of the two that cross it
+  EXPECT_EQ(coarse[1].weight, 1);                                    // two cells: crosses it
+  EXPECT_EQ(coarse[2].weight, 0.5);                                  // a speck
   EXPECT_NEAR(coarse[1].at.x_m - coarse[0].at.x_m, 4 * 0.05, 1e-6);  // means of the cells in it
   EXPECT_NEAR(coarse[1].at.y_m - coarse[0].at.y_m, -2.5 * 0.05, 1e-6);
 }
@@ -177,7 +177,8 @@ TEST(WallFit, IsGreatestAtTheTruth) {
 TEST(WallFit, IsNothingWhereTheMapsDoNotTouch) {
   const PreparedMap map = flat({});
   const WallFit fit(map, map, 1, {}, kAllPoints);
-  for (const Pose2& apart : {Pose2{40, 0, 0}, Pose2{-40, 0, 1}, Pose2{0, 40, 2}, Pose2{0, -40, 3}, Pose2{1e7, 1e7, 0}}) {
+  for (const Pose2& apart :
+       {Pose2{40, 0, 0}, Pose2{-40, 0, 1}, Pose2{0, 40, 2}, Pose2{0, -40, 3}, Pose2{1e7, 1e7, 0}}) {
     EXPECT_EQ(fit(apart), 0);
   }
 }

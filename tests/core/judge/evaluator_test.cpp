@@ -167,8 +167,8 @@ TEST(Evaluator, MutualInformationOfKnownTables) {
   EXPECT_NEAR(bits(text_map({"##.."}), text_map({"#.#."})), 0, 1e-12);
   EXPECT_NEAR(bits(text_map({"...."}), text_map({"...."})), 0, 1e-12);
   // Five cells: 2 walls together, 2 free together, 1 wall of the target's on free.
-  const double expected = 0.4 * std::log2(0.4 / (0.6 * 0.4)) + 0.4 * std::log2(0.4 / (0.4 * 0.6)) +
-                          0.2 * std::log2(0.2 / (0.6 * 0.6));
+  const double expected =
+      0.4 * std::log2(0.4 / (0.6 * 0.4)) + 0.4 * std::log2(0.4 / (0.4 * 0.6)) + 0.2 * std::log2(0.2 / (0.6 * 0.6));
   EXPECT_NEAR(bits(text_map({"###.."}), text_map({"##..."})), expected, 1e-12);
   EXPECT_NEAR(bits(text_map({"###..?#"}), text_map({"##...#?"})), expected, 1e-12);  // known in both only
 }
@@ -218,10 +218,11 @@ OccupancyGrid for_level_2(const OccupancyGrid& drawn) {
 }
 
 TEST(Evaluator, PsiIsTheSumOfMeanManhattanDistancesBothWays) {
-  const Drawn maps(for_level_2(text_map({"####....????", "#...........", "#.......####", "#...........",
-                                         "#....#......", "......#.....", "............", "...........?"},
-                                        0.05)),
-                   for_level_2(text_map({"#......#", "........", "........", "..##....", "........", "#......#"}, 0.05)));
+  const Drawn maps(
+      for_level_2(text_map({"####....????", "#...........", "#.......####", "#...........", "#....#......",
+                            "......#.....", "............", "...........?"},
+                           0.05)),
+      for_level_2(text_map({"#......#", "........", "........", "..##....", "........", "#......#"}, 0.05)));
   for (const Pose2& pose : {Pose2{}, Pose2{0.23, -0.11, 0.4}, Pose2{-0.6, 0.4, 2}, Pose2{3, 4, -1}, Pose2{-40, 7, 3}}) {
     const Pose2 local = to_local(pose, maps.target, maps.source);
     double expected = 0;
