@@ -38,8 +38,9 @@ class OnePose final : public Merger {
 };
 
 std::string evaluation_text(const Alignment& answer) {
-  std::string text = "This pose, against the best others that a sweep over all poses finds: " + status_of(answer.outcome) +
-                     ", confidence " + fixed(answer.confidence, 2) + "\n\nWhy\n" + list_text(reasons_of(answer));
+  std::string text =
+      "This pose, against the best others that a sweep over all poses finds: " + status_of(answer.outcome) +
+      ", confidence " + fixed(answer.confidence, 2) + "\n\nWhy\n" + list_text(reasons_of(answer));
   if (answer.hypotheses.empty()) {
     return text;
   }

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <mutex>
+#include <sstream>
 #include <stdexcept>
 
 #include "gridmerge/base/error.hpp"
@@ -82,27 +83,26 @@ std::vector<Row> make_rows(const std::vector<PairPlan>& plans, const Merger& met
 }
 
 std::string to_csv(const std::vector<Row>& rows) {
-  std::string text =
-      "kind,set,places,a,b,truth,overlap,right,outcome,confidence,error_m,error_deg,lead,lead_m,deviations";
+  std::ostringstream text;
+  text << "kind,set,places,a,b,truth,overlap,right,outcome,confidence,error_m,error_deg,lead,lead_m,deviations";
   for (const auto& [name, value] : Figures{}.named()) {
-    text += "," + name;
+    text << ',' << name;
   }
-  text += "\n";
+  text << '\n';
   for (const Row& row : rows) {
-    for (const std::string& word : {row.kind, row.set, row.places, row.a, row.b, row.truth}) {
-      text += word + ",";
-    }
-    text += exact(row.overlap) + (row.right ? ",1," : ",0,") + row.outcome + "," + exact(row.confidence) + ",";
-    text += row.error ? exact(row.error->distance_m) + "," + exact(degrees(row.error->angle_rad)) : ",";
+    text << row.kind << ',' << row.set << ',' << row.places << ',' << row.a << ',' << row.b << ',' << row.truth << ','
+         << exact(row.overlap) << ',' << (row.right ? 1 : 0) << ',' << row.outcome << ',' << exact(row.confidence)
+         << ',' << (row.error ? exact(row.error->distance_m) : "") << ','
+         << (row.error ? exact(degrees(row.error->angle_rad)) : "");
     for (const double number : {row.lead, row.lead_m, row.deviations}) {
-      text += "," + exact(number);
+      text << ',' << exact(number);
     }
     for (const auto& [name, value] : row.figures) {
-      text += "," + exact(value);
+      text << ',' << exact(value);
     }
-    text += "\n";
+    text << '\n';
   }
-  return text;
+  return text.str();
 }
 
 std::vector<Row> read_rows(const std::filesystem::path& csv) {

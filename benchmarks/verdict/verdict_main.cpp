@@ -35,7 +35,7 @@ std::vector<std::string> words_of(const std::string& list) {
 }
 
 void run_rows(const PairOptions& options, const std::filesystem::path& output) {
-  write_whole_file(output, "");  // better to know now than after an hour
+  WholeFiles().stage(output, "");  // better to know now than after an hour
   const std::vector<PairPlan> plans = plan_pairs(options);
   const auto method = all_methods().entries().front().profiles.front().config()->make();
   Watcher watcher;

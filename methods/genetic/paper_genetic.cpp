@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "gridmerge/align/correlation_sweep.hpp"
 #include "gridmerge/base/parallel.hpp"
 #include "gridmerge/base/random.hpp"
 #include "methods/genetic/hit_fitness.hpp"
@@ -297,7 +298,13 @@ Proposal PaperGeneticMerger::propose(const AlignRequest& request, const RunConte
       context.trace->on_iteration(evolution.record(planned));
     }
   }
-  return evolution.proposal();
+  Proposal proposal = evolution.proposal();
+  // Mutations stray beyond the window, as published; what strays beyond a prior's fence is not put forward.
+  const std::optional<SweepWindow> fence = gridmerge::window_of(request);
+  std::erase_if(proposal.candidates, [&](const Candidate& one) {
+    return !inside(to_local(one.target_from_source, request.target, request.source), fence);
+  });
+  return proposal;
 }
 
 }  // namespace gridmerge

@@ -20,7 +20,8 @@
 namespace gridmerge::verdict_study {
 namespace {
 
-worlds::MapPair flat() { return make_scene(known_pair("flat")); }
+/// Two surveys of one office that have a part in common.
+worlds::MapPair office() { return make_scene(known_pair("office_small_overlap")); }
 
 std::size_t count_known(const OccupancyGrid& grid) { return known_cells(grid).count; }
 
@@ -44,8 +45,8 @@ double distance_between(const OccupancyGrid& first, const OccupancyGrid& second,
 }
 
 TEST(Derived, ErasedMapsShareNoKnownCell) {
-  const worlds::MapPair pair = flat();
-  ASSERT_GT(pair.overlap, 0.3);
+  const worlds::MapPair pair = office();
+  ASSERT_GT(pair.overlap, 0.1);
   const OccupancyGrid erased = erase_overlap(pair.target, pair.source, pair.target_from_source, 1);
   EXPECT_GT(count_known(erased), 0U);
   EXPECT_EQ(worlds::overlap_of(pair.target, erased, pair.target_from_source), 0);
@@ -58,7 +59,7 @@ TEST(Derived, ErasedMapsShareNoKnownCell) {
 }
 
 TEST(Derived, HalvesOfASplitMapLieApart) {
-  const OccupancyGrid whole = flat().target;
+  const OccupancyGrid whole = office().target;
   const KnownCells known = known_cells(whole);
   const auto [before, behind] = split_in_two(whole, known.principal_rad + 0.3, 0.5, 1);
   EXPECT_GT(count_known(before), known.count / 4);
@@ -68,7 +69,7 @@ TEST(Derived, HalvesOfASplitMapLieApart) {
 }
 
 TEST(Derived, CutsLeaveTheOverlapAskedFor) {
-  const worlds::MapPair pair = flat();
+  const worlds::MapPair pair = office();
   const auto cut = cut_to_overlap(pair.target, pair.source, pair.target_from_source, 0.4, 0.3);
   ASSERT_TRUE(cut);
   EXPECT_NEAR(worlds::overlap_of(pair.target, *cut, pair.target_from_source), 0.3, 0.03);

@@ -5,6 +5,7 @@
 #include <ceres/solver.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -40,13 +41,20 @@ FieldSample sample(const MapLevel& level, double x_m, double y_m, double reach_m
   return {d, du / level.resolution_m, dv / level.resolution_m};
 }
 
+struct SurfacePoint {
+  double x_m;
+  double y_m;
+  Eigen::Vector2d normal;  ///< unit; zero where the surface has no clear side
+};
+
 /// At most `max_points` wall points, evenly taken.
-std::vector<Point2> some_walls(const PreparedMap& map, int max_points) {
+std::vector<SurfacePoint> some_walls(const PreparedMap& map, int max_points) {
   const auto limit = static_cast<std::size_t>(max_points);
   const std::size_t step = std::max<std::size_t>(1, (map.walls().size() + limit - 1) / limit);
-  std::vector<Point2> points;
+  std::vector<SurfacePoint> points;
   for (std::size_t i = 0; i < map.walls().size(); i += step) {
-    points.push_back({map.walls()[i].at.x_m, map.walls()[i].at.y_m});
+    const WallPoint& wall = map.walls()[i];
+    points.push_back({wall.at.x_m, wall.at.y_m, {wall.surface_normal.x_m, wall.surface_normal.y_m}});
   }
   return points;
 }
@@ -69,13 +77,13 @@ class WallDistances final : public ceres::CostFunction {
     const double c = std::cos(p[2]);
     const double s = std::sin(p[2]);
     double* jacobian = jacobians != nullptr ? jacobians[0] : nullptr;
-    for (const Point2& q : source_points_) {
+    for (const SurfacePoint& q : source_points_) {
       const double rx = c * q.x_m - s * q.y_m;
       const double ry = s * q.x_m + c * q.y_m;
       const FieldSample f = sample(target_, rx + p[0], ry + p[1], options_.reach_m);
       put(f, f.slope_x, f.slope_y, -f.slope_x * ry + f.slope_y * rx, residuals++, jacobian);
     }
-    for (const Point2& q : target_points_) {
+    for (const SurfacePoint& q : target_points_) {
       const double dx = q.x_m - p[0];
       const double dy = q.y_m - p[1];
       const double bx = c * dx + s * dy;  // the point in the source's frame
@@ -85,6 +93,19 @@ class WallDistances final : public ceres::CostFunction {
           residuals++, jacobian);
     }
     return true;
+  }
+
+  /// Calls `visit(arm, normal)` for each residual in order: from the pose's position to its point, and the surface's
+  /// normal there, both in the target's local frame.
+  template <typename Visit>
+  void for_each_surface(const double* p, Visit&& visit) const {
+    const Eigen::Rotation2D<double> turn(p[2]);
+    for (const SurfacePoint& q : source_points_) {
+      visit(turn * Eigen::Vector2d(q.x_m, q.y_m), turn * q.normal);
+    }
+    for (const SurfacePoint& q : target_points_) {
+      visit(Eigen::Vector2d(q.x_m - p[0], q.y_m - p[1]), q.normal);
+    }
   }
 
  private:
@@ -104,41 +125,54 @@ class WallDistances final : public ceres::CostFunction {
   const MapLevel& target_;
   const MapLevel& source_;
   RefineOptions options_;
-  std::vector<Point2> target_points_;
-  std::vector<Point2> source_points_;
+  std::vector<SurfacePoint> target_points_;
+  std::vector<SurfacePoint> source_points_;
 };
 
-/// Covariance of (x, y, theta) at the optimum, from the residuals' slopes.
+/// Share of a normal's square that is the cells' doing: a wall of jagged cells has normals that stray to both sides.
+constexpr double kNormalNoise = 0.02;
+
+/// Covariance of (x, y, theta) at the optimum: point-to-line information of the walls that found a partner (Censi 2007,
+/// "On achievable accuracy for range-finder localization"), less what stray normals would claim to know.
 std::optional<PoseCovariance> local_covariance(const WallDistances& cost, const double* pose, const RefineOptions& o,
-                                               double metres_a_point) {
-  const int n = cost.num_residuals();
-  std::vector<double> residuals(static_cast<std::size_t>(n));
-  std::vector<double> jacobian(static_cast<std::size_t>(n) * 3);
-  double* blocks[] = {jacobian.data()};
+                                               double resolution_m, double metres_a_point) {
+  std::vector<double> residuals(static_cast<std::size_t>(cost.num_residuals()));
   const double* parameters[] = {pose};
-  cost.Evaluate(parameters, residuals.data(), blocks);
-  const double near_limit = o.scale_m * o.reach_m / std::hypot(o.scale_m, o.reach_m) * (1 - 1e-9);
+  cost.Evaluate(parameters, residuals.data(), nullptr);
+  const double unmatched = o.scale_m * o.reach_m / std::hypot(o.scale_m, o.reach_m) * (1 - 1e-9);
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   double sum = 0;
+  double arms = 0;
   int matched = 0;
-  for (int i = 0; i < n; ++i) {
-    const double r = residuals[static_cast<std::size_t>(i)];
-    if (r < near_limit) {
-      const Eigen::Map<const Eigen::Vector3d> j(&jacobian[static_cast<std::size_t>(i) * 3]);
-      information += j * j.transpose();
-      sum += r * r;
-      ++matched;
+  std::size_t i = 0;
+  cost.for_each_surface(pose, [&](const Eigen::Vector2d& arm, const Eigen::Vector2d& normal) {
+    const double r = residuals[i++];
+    if (r >= unmatched || normal.squaredNorm() == 0) {
+      return;
     }
-  }
+    Eigen::Matrix<double, 2, 3> moved;  // of the point, by the pose
+    moved << 1, 0, -arm.y(), 0, 1, arm.x();
+    const Eigen::Vector3d along_normal = moved.transpose() * normal;
+    information += along_normal * along_normal.transpose() - kNormalNoise * moved.transpose() * moved;
+    sum += r * r;
+    arms += arm.squaredNorm();
+    ++matched;
+  });
   if (matched < 3) {
     return std::nullopt;
   }
-  const double variance = sum / matched;
-  const double points_a_sample = std::max(1.0, o.independent_m / metres_a_point);
-  information /= std::max(variance, 1e-6) * points_a_sample;
-  // No direction is known worse than 10 m, no angle worse than pi: keeps the inverse finite where nothing fixes it.
-  information.diagonal() += Eigen::Vector3d(1e-2, 1e-2, 1 / (kPi * kPi));
-  return information.inverse();
+  const double cell = resolution_m / std::sqrt(12);
+  const double variance = sum / matched + cell * cell;
+  information /= variance * std::max(1.0, o.independent_m / metres_a_point);
+  // No direction is known worse than 10 m, no angle worse than pi. In units where a turn weighs like a step.
+  const double arm = std::max(0.1, std::sqrt(arms / matched));
+  const Eigen::Vector3d unit(1, 1, 1 / arm);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(unit.asDiagonal() * information * unit.asDiagonal());
+  const Eigen::Vector3d known = solver.eigenvalues().cwiseMax(0);
+  Eigen::Matrix3d floored = solver.eigenvectors() * known.asDiagonal() * solver.eigenvectors().transpose();
+  floored = unit.cwiseInverse().asDiagonal() * floored * unit.cwiseInverse().asDiagonal();
+  floored.diagonal() += Eigen::Vector3d(1e-2, 1e-2, 1 / (kPi * kPi));
+  return floored.inverse();
 }
 
 }  // namespace
@@ -179,7 +213,8 @@ PoseEstimate refine(const PreparedMap& target, const PreparedMap& source, const 
 
   const double metres_a_point =
       static_cast<double>(target.walls().size() + source.walls().size()) / cost.num_residuals() * target.resolution_m();
-  const std::optional<PoseCovariance> local = local_covariance(cost, pose, options, metres_a_point);
+  const std::optional<PoseCovariance> local =
+      local_covariance(cost, pose, options, target.resolution_m(), metres_a_point);
   const Pose2 better{pose[0], pose[1], wrap_angle(pose[2])};
   if (!local || !summary.IsSolutionUsable()) {
     return {target_from_source, std::nullopt};

@@ -13,7 +13,7 @@ struct RefineOptions {
   double scale_m = 0.12;
   int max_iterations = 12;
   int max_points = 1500;
-  double independent_m = 0.5;
+  double independent_m = 2;
 
   void describe(OptionList& list);
 };

@@ -97,26 +97,52 @@ MapLevel coarser(const MapLevel& fine) {
   return coarse;
 }
 
-/// The direction in which an occupied cell was seen: from it towards the free cells nearby, away from the others.
-Point2f free_normal(const MapLevel& level, int column, int row) {
+/// The surface that an occupied cell belongs to, from the cells within three of it: free cells pull the free normal;
+/// the other occupied cells span the wall, and the normal lies across their principal direction.
+WallPoint wall_point(const MapLevel& level, int column, int row, Point2f at) {
   constexpr int kReach = 3;
-  float x = 0;
-  float y = 0;
-  float weight = 0;
+  float free_x = 0;
+  float free_y = 0;
+  float free_cells = 0;
+  float xx = 0;
+  float xy = 0;
+  float yy = 0;
   for (int dy = -kReach; dy <= kReach; ++dy) {
     for (int dx = -kReach; dx <= kReach; ++dx) {
-      if ((dx != 0 || dy != 0) && level.contains(column + dx, row + dy) &&
-          level.state[level.offset(column + dx, row + dy)] == CellState::kOpen) {
-        const float w = 1.0F / std::sqrt(static_cast<float>(dx * dx + dy * dy));
-        x += w * static_cast<float>(dx);
-        y += w * static_cast<float>(dy);
-        weight += 1;
+      if ((dx == 0 && dy == 0) || !level.contains(column + dx, row + dy)) {
+        continue;
+      }
+      const CellState state = level.state[level.offset(column + dx, row + dy)];
+      const auto x = static_cast<float>(dx);
+      const auto y = static_cast<float>(dy);
+      if (state == CellState::kOpen) {
+        const float w = 1.0F / std::sqrt(x * x + y * y);
+        free_x += w * x;
+        free_y += w * y;
+        free_cells += 1;
+      } else if (state == CellState::kWall) {
+        xx += x * x;
+        xy += x * y;
+        yy += y * y;
       }
     }
   }
-  const float length = std::hypot(x, y);
-  // Free cells all round pull in no direction: a post, or a speck of noise.
-  return length < 0.25F * weight || weight == 0 ? Point2f{} : Point2f{x / length, y / length};
+  WallPoint point{.at = at, .free_normal = {}, .surface_normal = {}};
+  // Free cells all round pull in no direction: a post, a speck, a thin wall seen from both sides.
+  const float length = std::hypot(free_x, free_y);
+  if (free_cells > 0 && length >= 0.25F * free_cells) {
+    point.free_normal = {free_x / length, free_y / length};
+  }
+  // Eigenvalues of the scatter: mean +- half_gap. Elongated at least 3 : 1, or it is a corner or a blob.
+  const float mean = 0.5F * (xx + yy);
+  const float half_gap = std::hypot(0.5F * (xx - yy), xy);
+  if (half_gap > 0.5F * mean) {
+    const float along = 0.5F * std::atan2(2 * xy, xx - yy);
+    point.surface_normal = {-std::sin(along), std::cos(along)};
+  } else {
+    point.surface_normal = point.free_normal;
+  }
+  return point;
 }
 
 }  // namespace
@@ -220,7 +246,7 @@ PreparedMap::PreparedMap(const OccupancyGrid& grid, double resolution_m, const P
       const double y = base.lower_left.y_m + (row + 0.5) * resolution_m_;
       radius2 = std::max(radius2, x * x + y * y);
       if (s == CellState::kWall) {
-        walls_.push_back({{static_cast<float>(x), static_cast<float>(y)}, free_normal(base, column, row)});
+        walls_.push_back(wall_point(base, column, row, {static_cast<float>(x), static_cast<float>(y)}));
       }
     }
   }

@@ -27,10 +27,12 @@ struct Point2f {
   float y_m = 0;
 };
 
-/// An occupied cell with what its neighbourhood tells of the surface it belongs to.
+/// An occupied cell with what its neighbourhood tells of the surface it belongs to. Both vectors are unit vectors, or
+/// zero where that is not clear.
 struct WallPoint {
-  Point2f at;           ///< cell centre, local frame
-  Point2f free_normal;  ///< unit vector towards the free space it was seen from; zero where that is not clear
+  Point2f at;              ///< cell centre, local frame
+  Point2f free_normal;     ///< towards the free space it was seen from; zero as well where it was seen from both sides
+  Point2f surface_normal;  ///< across the wall, of either sign
 };
 
 /// One resolution of a map. Row-major from the lower left, in the map's local frame.
