@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 #include <sstream>
 
@@ -128,20 +127,25 @@ VerdictOptions fit_weights(const std::vector<Row>& rows, const std::vector<doubl
   return result;
 }
 
-std::vector<double> cross_validate(const std::vector<Row>& rows, const std::vector<double>& importance,
-                                   const std::vector<std::string>& keys,
-                                   const std::function<bool(const std::string&, const std::string&)>& related) {
-  std::map<std::string, VerdictOptions> weights_of;
+WeightsByKey fit_without(const std::vector<Row>& rows, const std::vector<double>& importance,
+                         const std::vector<std::string>& keys,
+                         const std::function<bool(const std::string&, const std::string&)>& related) {
+  WeightsByKey weights;
   for (const std::string& key : std::set<std::string>(keys.begin(), keys.end())) {
     std::vector<double> others = importance;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       others[i] = related(keys[i], key) ? 0 : importance[i];
     }
-    weights_of[key] = fit_weights(rows, others);
+    weights[key] = fit_weights(rows, others);
   }
+  return weights;
+}
+
+std::vector<double> confidence_of(const std::vector<Row>& rows, const std::vector<std::string>& keys,
+                                  const WeightsByKey& weights) {
   std::vector<double> confidence;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    confidence.push_back(confidence_of(rows[i], weights_of.at(keys[i])));
+    confidence.push_back(confidence_of(rows[i], weights.at(keys[i])));
   }
   return confidence;
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -46,10 +47,14 @@ using SevenFigures = Eigen::Matrix<double, 7, 1>;
 [[nodiscard]] VerdictOptions fit_weights(const std::vector<Row>& rows, const std::vector<double>& importance,
                                          double ridge = 0.3);
 
-/// The confidence of each row by weights fitted to rows of unrelated keys only.
-[[nodiscard]] std::vector<double> cross_validate(
-    const std::vector<Row>& rows, const std::vector<double>& importance, const std::vector<std::string>& keys,
-    const std::function<bool(const std::string&, const std::string&)>& related);
+/// For each key, the weights fitted to the rows whose keys are not related to it.
+using WeightsByKey = std::map<std::string, VerdictOptions>;
+[[nodiscard]] WeightsByKey fit_without(const std::vector<Row>& rows, const std::vector<double>& importance,
+                                       const std::vector<std::string>& keys,
+                                       const std::function<bool(const std::string&, const std::string&)>& related);
+/// The confidence of each row by the weights of its key: cross-validation.
+[[nodiscard]] std::vector<double> confidence_of(const std::vector<Row>& rows, const std::vector<std::string>& keys,
+                                                const WeightsByKey& weights);
 
 /// Key: one of `folds` by chance.
 [[nodiscard]] std::vector<std::string> chance_keys(const std::vector<Row>& rows, int folds, std::uint64_t seed);

@@ -114,20 +114,21 @@ std::vector<PairPlan> cross_plans(const std::vector<NamedMap>& maps, const Place
       usable.push_back(&map);
     }
   }
-  std::vector<PairPlan> plans;
   std::set<std::pair<const NamedMap*, const NamedMap*>> taken;
   RandomStream chance(options.seed, "verdict/cross");
-  const auto any = [&]() -> const NamedMap& {
-    return *usable[chance.below(static_cast<std::uint32_t>(usable.size()))];
-  };
+  const auto any = [&]() { return usable[chance.below(static_cast<std::uint32_t>(usable.size()))]; };
   const auto wanted = static_cast<std::size_t>(options.cross);
-  for (std::size_t tries = 100 * wanted; tries > 0 && plans.size() < wanted && !usable.empty(); --tries) {
-    const NamedMap& target = any();
-    const NamedMap& source = any();
-    if (places.of(target.set) != places.of(source.set) && !shown.contains({target.set, source.fingerprint}) &&
-        !shown.contains({source.set, target.fingerprint}) && taken.emplace(&target, &source).second) {
-      plans.push_back(plan_of(target, source, "cross", places));
+  for (std::size_t tries = 100 * wanted; tries > 0 && taken.size() < wanted && !usable.empty(); --tries) {
+    const NamedMap* target = any();
+    const NamedMap* source = any();
+    if (places.of(target->set) != places.of(source->set) && !shown.contains({target->set, source->fingerprint}) &&
+        !shown.contains({source->set, target->fingerprint})) {
+      taken.emplace(target, source);
     }
+  }
+  std::vector<PairPlan> plans;
+  for (const auto& [target, source] : taken) {  // in the order of the manifests
+    plans.push_back(plan_of(*target, *source, "cross", places));
   }
   return plans;
 }
@@ -200,10 +201,8 @@ StudyPair drawn_pair(const PairPlan& plan) {
                     .truth = "different",
                     .pose = {},
                     .overlap = drawn.overlap};
-  if (plan.kind == "ambiguous") {
-    pair.truth = "ambiguous";
-  } else if (drawn.overlap >= kLeastOverlap) {
-    pair.truth = "same";
+  if (drawn.overlap >= kLeastOverlap) {
+    pair.truth = plan.kind == "ambiguous" ? "ambiguous" : "same";
     pair.pose = {drawn.target_from_source, kDrawnTolerance, radians(kDrawnToleranceDeg)};
   }
   return pair;

@@ -47,7 +47,7 @@ struct StudyPair {
   OccupancyGrid target;
   OccupancyGrid source;
   std::string truth;              ///< same, different, or ambiguous: no single pose is the right one
-  std::optional<KnownPose> pose;  ///< where the truth is "same"
+  std::optional<KnownPose> pose;  ///< where the robots were, unless the truth is "different"
   double overlap = 0;             ///< share of the source's known area that the target knows, 0..1
 };
 

@@ -36,7 +36,8 @@ Row row_of(const PairPlan& plan, const StudyPair& pair, const Merger& method, co
     if (pair.pose) {
       row.error =
           difference_at(known_cells(pair.source).centre, best.target_from_source.pose, pair.pose->target_from_source);
-      row.right = row.error->distance_m <= pair.pose->tolerance_m && row.error->angle_rad <= pair.pose->tolerance_rad;
+      row.right = pair.truth == "same" && row.error->distance_m <= pair.pose->tolerance_m &&
+                  row.error->angle_rad <= pair.pose->tolerance_rad;
     }
   }
   return row;

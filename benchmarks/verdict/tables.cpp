@@ -5,8 +5,6 @@
 #include <cstdio>
 #include <functional>
 
-#include "verdict/fit.hpp"
-
 namespace gridmerge::verdict_study {
 namespace {
 
@@ -102,6 +100,20 @@ std::string outcome_table(const std::vector<Row>& rows) {
                      count([](const Row&, bool same, bool merged) { return !merged && !same; }),
                      count([](const Row&, bool same, bool merged) { return merged && !same; }),
                      count([](const Row& row, bool, bool) { return row.right; })});
+  }
+  return text;
+}
+
+std::string weight_table(const VerdictOptions& built_in, const VerdictOptions& fitted, const WeightsByKey& folds) {
+  std::string text = heading_of({"weight", "built in", "fitted", "fitted, place by place"});
+  for (const Weight& weight : kWeights) {
+    std::vector<double> values;
+    for (const auto& [key, options] : folds) {
+      values.push_back(options.*weight.value);
+    }
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    text += line_of({"`" + std::string(weight.key) + "`", fixed(built_in.*weight.value, 2),
+                     fixed(fitted.*weight.value, 2), values.empty() ? "" : fixed(*low, 2) + " .. " + fixed(*high, 2)});
   }
   return text;
 }

@@ -1,15 +1,18 @@
 #pragma once
 /// What came of it, as Markdown.
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "verdict/rows.hpp"
+#include "verdict/fit.hpp"
 
 namespace gridmerge::verdict_study {
 
 /// Per kind and set, what the built-in verdict did: right, wrong, missed, refused, false.
 [[nodiscard]] std::string outcome_table(const std::vector<Row>& rows);
+
+/// The weights side by side, and how far those of single folds stray.
+[[nodiscard]] std::string weight_table(const VerdictOptions& built_in, const VerdictOptions& fitted,
+                                       const WeightsByKey& folds);
 
 /// A confidence for every row, by some weights.
 struct Judgement {

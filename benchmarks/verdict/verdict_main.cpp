@@ -2,11 +2,13 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <map>
-#include <optional>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -97,11 +99,14 @@ void run_fit(const std::vector<Row>& rows, const std::vector<std::string>& weigh
     }
     return confidence;
   };
+  const std::vector<std::string> folds = chance_keys(rows, kFolds, seed);
+  const std::vector<std::string> places = place_keys(rows);
+  const WeightsByKey by_fold = fit_without(rows, importance, folds, std::equal_to<>());
+  const WeightsByKey by_place = fit_without(rows, importance, places, share_a_place);
   const std::vector<Judgement> judgements = {
       judgement("built in", by({})), judgement("fitted", by(fitted)),
-      judgement("fitted, in " + std::to_string(kFolds) + " folds",
-                cross_validate(rows, importance, chance_keys(rows, kFolds, seed), std::equal_to<>())),
-      judgement("fitted, place by place", cross_validate(rows, importance, place_keys(rows), share_a_place))};
+      judgement("fitted, in " + std::to_string(kFolds) + " folds", confidence_of(rows, folds, by_fold)),
+      judgement("fitted, place by place", confidence_of(rows, places, by_place))};
   const auto counted = std::count_if(rows.begin(), rows.end(), is_fitted);
   const std::string yaml = weights_yaml(fitted);
   if (output.empty()) {
@@ -109,8 +114,8 @@ void run_fit(const std::vector<Row>& rows, const std::vector<std::string>& weigh
   } else {
     write_whole_file(output, yaml);
   }
-  std::cout << "Fitted to " << counted << " of " << rows.size()
-            << " rows. Answers that pass a threshold: right + **wrong**.\n\n"
+  std::cout << "Fitted to " << counted << " of " << rows.size() << " rows.\n\n"
+            << weight_table({}, fitted, by_place) << "\nAnswers that pass a threshold: right + **wrong**.\n\n"
             << summary_table(rows, judgements);
   for (const std::size_t shown : {std::size_t{1}, std::size_t{3}}) {
     std::cout << "\n### " << judgements[shown].name << "\n\n" << threshold_table(rows, judgements[shown]);

@@ -50,11 +50,13 @@ class Evolution {
  public:
   Evolution(const PaperGeneticOptions& options, const AlignRequest& request, const RunContext& context)
       : options_(options),
+        request_(request),
         context_(context),
         fitness_(request.target, request.source),
         size_(static_cast<std::size_t>(options.population)),
         spread_{options.mutation_cells * request.target.resolution_m(), radians(options.mutation_deg)},
         window_(window_of(options, request)),
+        fence_(gridmerge::window_of(request)),
         centre_(request.source.centre_in_map()) {
     std::vector<Pose2> first;
     if (request.carried != nullptr) {
@@ -156,7 +158,11 @@ class Evolution {
   }
 
   /// Step 1, done as soon as an individual comes to be.
-  [[nodiscard]] Individual evaluated(const Pose2& pose) const { return {pose, fitness_(pose)}; }
+  /// Mutations stray beyond the window, as published; but what strays beyond a prior's fence is not viable.
+  [[nodiscard]] Individual evaluated(const Pose2& pose) const {
+    const bool viable = inside(to_local(pose, request_.target, request_.source), fence_);
+    return {pose, viable ? fitness_(pose) : -1};
+  }
 
   bool poll_stop() {
     if (context_.stop.stop_requested()) {
@@ -215,11 +221,13 @@ class Evolution {
   }
 
   const PaperGeneticOptions& options_;
+  const AlignRequest& request_;
   const RunContext& context_;
   HitFitness fitness_;
   std::size_t size_;
   paper::MutationSpread spread_;
   paper::Window window_;
+  std::optional<SweepWindow> fence_;
   Point2 centre_;
   std::vector<Individual> population_;  ///< best first
   int iteration_ = 0;                   ///< done so far
@@ -298,13 +306,7 @@ Proposal PaperGeneticMerger::propose(const AlignRequest& request, const RunConte
       context.trace->on_iteration(evolution.record(planned));
     }
   }
-  Proposal proposal = evolution.proposal();
-  // Mutations stray beyond the window, as published; what strays beyond a prior's fence is not put forward.
-  const std::optional<SweepWindow> fence = gridmerge::window_of(request);
-  std::erase_if(proposal.candidates, [&](const Candidate& one) {
-    return !inside(to_local(one.target_from_source, request.target, request.source), fence);
-  });
-  return proposal;
+  return evolution.proposal();
 }
 
 }  // namespace gridmerge

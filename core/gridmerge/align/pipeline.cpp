@@ -170,6 +170,7 @@ Alignment align_prepared(const AlignRequest& request, const Merger& method, cons
 
   if (options.refine || proposed < hypotheses.size()) {
     const std::optional<SweepWindow> window = window_of(request);
+    const Refiner refiner(target, source, options.refinement);
     announce(context, "refine");
     // A rival that the pipeline found comes on top: the method's own best must not fall out of the refinement for it.
     const auto own = static_cast<std::size_t>(options.refined_candidates);
@@ -179,7 +180,7 @@ Alignment align_prepared(const AlignRequest& request, const Merger& method, cons
       if (one.proposed && !options.refine) {
         return;
       }
-      const PoseEstimate refined = refine(target, source, one.target_from_source.pose, options.refinement);
+      const PoseEstimate refined = refiner(one.target_from_source.pose);
       const Figures figures = evaluator.wall_figures(refined.pose);
       one.target_from_source.covariance = refined.covariance;
       if (!inside(to_local(refined.pose, target, source), window)) {

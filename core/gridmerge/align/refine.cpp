@@ -8,7 +8,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
+
+#include "gridmerge/grid/wall_sides.hpp"
 
 namespace gridmerge {
 namespace {
@@ -47,13 +50,29 @@ struct SurfacePoint {
   Eigen::Vector2d normal;  ///< unit; zero where the surface has no clear side
 };
 
-/// At most `max_points` wall points, evenly taken.
-std::vector<SurfacePoint> some_walls(const PreparedMap& map, int max_points) {
+/// Walls within this distance decide whether a point was seen from the same side [m].
+constexpr double kSideReach = 0.25;
+
+/// At most `max_points` of the moving map's walls, evenly taken, without those that lie on the other face of a wall.
+std::vector<SurfacePoint> same_side_walls(const PreparedMap& moving, const PreparedMap& fixed,
+                                          const std::vector<std::uint8_t>& fixed_sides, const Pose2& fixed_from_moving,
+                                          int max_points) {
+  const MapLevel& level = fixed.level(0);
   const auto limit = static_cast<std::size_t>(max_points);
-  const std::size_t step = std::max<std::size_t>(1, (map.walls().size() + limit - 1) / limit);
+  const std::size_t step = std::max<std::size_t>(1, (moving.walls().size() + limit - 1) / limit);
   std::vector<SurfacePoint> points;
-  for (std::size_t i = 0; i < map.walls().size(); i += step) {
-    const WallPoint& wall = map.walls()[i];
+  for (std::size_t i = 0; i < moving.walls().size(); i += step) {
+    const WallPoint& wall = moving.walls()[i];
+    const Point2 at = fixed_from_moving * Point2{wall.at.x_m, wall.at.y_m};
+    const double column = std::floor((at.x_m - level.lower_left.x_m) / level.resolution_m);
+    const double row = std::floor((at.y_m - level.lower_left.y_m) / level.resolution_m);
+    if (column >= 0 && row >= 0 && column < level.width && row < level.height) {
+      const std::uint8_t sides = fixed_sides[level.offset(static_cast<int>(column), static_cast<int>(row))];
+      const WallSide side(wall);
+      if (side.known && sides != 0 && ((sides >> side.octant_after(fixed_from_moving.theta_rad)) & 1) == 0) {
+        continue;
+      }
+    }
     points.push_back({wall.at.x_m, wall.at.y_m, {wall.surface_normal.x_m, wall.surface_normal.y_m}});
   }
   return points;
@@ -62,12 +81,13 @@ std::vector<SurfacePoint> some_walls(const PreparedMap& map, int max_points) {
 /// Residuals of all points of both maps as a function of the local pose (x, y, theta).
 class WallDistances final : public ceres::CostFunction {
  public:
-  WallDistances(const PreparedMap& target, const PreparedMap& source, const RefineOptions& options)
-      : target_(target.level(0)),
-        source_(source.level(0)),
+  WallDistances(const MapLevel& target, const MapLevel& source, std::vector<SurfacePoint> target_points,
+                std::vector<SurfacePoint> source_points, const RefineOptions& options)
+      : target_(target),
+        source_(source),
         options_(options),
-        target_points_(some_walls(target, options.max_points)),
-        source_points_(some_walls(source, options.max_points)) {
+        target_points_(std::move(target_points)),
+        source_points_(std::move(source_points)) {
     set_num_residuals(static_cast<int>(target_points_.size() + source_points_.size()));
     mutable_parameter_block_sizes()->push_back(3);
   }
@@ -189,11 +209,21 @@ void RefineOptions::describe(OptionList& list) {
            {"m", "Length of wall that counts as one independent measurement in the covariance.", ""});
 }
 
-PoseEstimate refine(const PreparedMap& target, const PreparedMap& source, const Pose2& target_from_source,
-                    const RefineOptions& options) {
-  const Pose2 start = to_local(target_from_source, target, source);
+Refiner::Refiner(const PreparedMap& target, const PreparedMap& source, RefineOptions options)
+    : target_(target),
+      source_(source),
+      options_(options),
+      target_sides_(sides_within(target, kSideReach)),
+      source_sides_(sides_within(source, kSideReach)) {
+  require_valid(options_, "refine");
+}
+
+PoseEstimate Refiner::operator()(const Pose2& target_from_source) const {
+  const Pose2 start = to_local(target_from_source, target_, source_);
   double pose[3] = {start.x_m, start.y_m, start.theta_rad};
-  WallDistances cost(target, source, options);
+  WallDistances cost(target_.level(0), source_.level(0),
+                     same_side_walls(target_, source_, source_sides_, inverse(start), options_.max_points),
+                     same_side_walls(source_, target_, target_sides_, start, options_.max_points), options_);
   if (cost.num_residuals() < 3) {
     return {target_from_source, std::nullopt};
   }
@@ -203,7 +233,7 @@ PoseEstimate refine(const PreparedMap& target, const PreparedMap& source, const 
   problem.AddResidualBlock(&cost, nullptr, pose);
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  solver.max_num_iterations = options.max_iterations;
+  solver.max_num_iterations = options_.max_iterations;
   solver.function_tolerance = 1e-4;
   solver.parameter_tolerance = 1e-6;
   solver.logging_type = ceres::SILENT;
@@ -211,17 +241,26 @@ PoseEstimate refine(const PreparedMap& target, const PreparedMap& source, const 
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
 
-  const double metres_a_point =
-      static_cast<double>(target.walls().size() + source.walls().size()) / cost.num_residuals() * target.resolution_m();
+  const auto step = [&](const PreparedMap& map) {
+    const auto limit = static_cast<std::size_t>(options_.max_points);
+    return static_cast<double>(std::max<std::size_t>(1, (map.walls().size() + limit - 1) / limit));
+  };
+  const double metres_a_point = 0.5 * (step(target_) + step(source_)) * target_.resolution_m();
   const std::optional<PoseCovariance> local =
-      local_covariance(cost, pose, options, target.resolution_m(), metres_a_point);
+      local_covariance(cost, pose, options_, target_.resolution_m(), metres_a_point);
   const Pose2 better{pose[0], pose[1], wrap_angle(pose[2])};
   if (!local || !summary.IsSolutionUsable()) {
     return {target_from_source, std::nullopt};
   }
   // Both map frames are taken as exact: only the pose between the local frames is uncertain.
   const PoseCovariance exact = PoseCovariance::Zero();
-  return compose(compose({target.map_from_local(), exact}, {better, local}), {inverse(source.map_from_local()), exact});
+  return compose(compose({target_.map_from_local(), exact}, {better, local}),
+                 {inverse(source_.map_from_local()), exact});
+}
+
+PoseEstimate refine(const PreparedMap& target, const PreparedMap& source, const Pose2& target_from_source,
+                    const RefineOptions& options) {
+  return Refiner(target, source, options)(target_from_source);
 }
 
 }  // namespace gridmerge

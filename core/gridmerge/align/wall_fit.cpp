@@ -20,10 +20,12 @@ double table_sum(const FitTable& table, const std::vector<ThinnedWall>& points, 
   float sum = 0;
   for (const auto& [p, weight] : points) {
     // Truncation takes (-1, 0) to 0 as well: that is the outermost cell of the margin, which is unknown.
-    const auto column = static_cast<std::uint32_t>(static_cast<std::int32_t>(c * p.x_m - s * p.y_m + x0));
-    const auto row = static_cast<std::uint32_t>(static_cast<std::int32_t>(s * p.x_m + c * p.y_m + y0));
-    const bool inside = column < width && row < height;
-    sum += inside ? weight * static_cast<float>(values[row * width + column]) : 0.0F;
+    const float x = std::clamp(c * p.x_m - s * p.y_m + x0, -1e6F, 1e6F);  // what a cast to int can take
+    const float y = std::clamp(s * p.x_m + c * p.y_m + y0, -1e6F, 1e6F);
+    const auto column = static_cast<std::uint32_t>(static_cast<std::int32_t>(x));
+    const auto row = static_cast<std::uint32_t>(static_cast<std::int32_t>(y));
+    const bool within = column < width && row < height;
+    sum += within ? weight * static_cast<float>(values[row * width + column]) : 0.0F;
   }
   return static_cast<double>(sum);
 }

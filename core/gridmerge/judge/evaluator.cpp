@@ -21,8 +21,12 @@ struct ToCells {
     x0 = static_cast<float>((level_from_points.x_m - level.lower_left.x_m) * scale);
     y0 = static_cast<float>((level_from_points.y_m - level.lower_left.y_m) * scale);
   }
-  [[nodiscard]] int column(Point2f p) const { return static_cast<int>(std::floor(c * p.x_m - s * p.y_m + x0)); }
-  [[nodiscard]] int row(Point2f p) const { return static_cast<int>(std::floor(s * p.x_m + c * p.y_m + y0)); }
+  [[nodiscard]] int column(Point2f p) const { return cell(c * p.x_m - s * p.y_m + x0); }
+  [[nodiscard]] int row(Point2f p) const { return cell(s * p.x_m + c * p.y_m + y0); }
+  /// The cell that holds a coordinate. Far outside of any map it stops counting, so that sums cannot overflow.
+  [[nodiscard]] static int cell(float coordinate) {
+    return static_cast<int>(std::floor(std::clamp(coordinate, -1e6F, 1e6F)));
+  }
 };
 
 Point2f cell_centre(const MapLevel& level, int column, int row) {
@@ -119,45 +123,12 @@ Evaluator::Evaluator(const PreparedMap& target, const PreparedMap& source, Evalu
 Evaluator::Side Evaluator::side_of(const PreparedMap& map) const {
   Side side;
   side.map = &map;
-  const MapLevel& level = map.level(0);
-  side.seen_from.assign(level.state.size(), 0);
+  side.seen_from = sides_within(map, options_.tolerance_m);
   const auto limit = static_cast<std::size_t>(options_.max_points);
   const std::size_t step = std::max<std::size_t>(1, (map.walls().size() + limit - 1) / limit);
-  side.metres_a_wall = static_cast<double>(step) * level.resolution_m;
-  const double reach_cells = options_.tolerance_m / level.resolution_m + 1e-6;
-  const int reach = static_cast<int>(reach_cells);
-  std::vector<int> half_width(static_cast<std::size_t>(reach) + 1);
-  for (int dy = 0; dy <= reach; ++dy) {
-    half_width[static_cast<std::size_t>(dy)] = static_cast<int>(std::sqrt(reach_cells * reach_cells - dy * dy));
-  }
-  std::size_t index = 0;
-  for (const WallPoint& wall : map.walls()) {
-    SidedWall sided{.at = wall.at, .direction = 0, .has_side = wall.free_normal.x_m != 0 || wall.free_normal.y_m != 0};
-    std::uint8_t directions = 0xff;
-    if (sided.has_side) {
-      const double turn = std::atan2(wall.free_normal.y_m, wall.free_normal.x_m) / (2 * kPi);
-      sided.direction = static_cast<std::uint8_t>(std::lround(turn * 64) & 63);
-      // Its own octant and the two beside it: normals up to about 60 degrees apart agree.
-      const int octant = ((sided.direction + 4) >> 3) & 7;
-      directions = static_cast<std::uint8_t>((1 << octant) | (1 << ((octant + 1) & 7)) | (1 << ((octant + 7) & 7)));
-    }
-    const int column = static_cast<int>((wall.at.x_m - level.lower_left.x_m) / level.resolution_m);
-    const int row = static_cast<int>((wall.at.y_m - level.lower_left.y_m) / level.resolution_m);
-    for (int dy = -reach; dy <= reach; ++dy) {
-      if (row + dy < 0 || row + dy >= level.height) {
-        continue;
-      }
-      const int half = half_width[static_cast<std::size_t>(std::abs(dy))];
-      const int low = std::max(0, column - half);
-      const int high = std::min(level.width - 1, column + half);
-      std::uint8_t* cell = &side.seen_from[level.offset(low, row + dy)];
-      for (int c = low; c <= high; ++c) {
-        *cell++ |= directions;
-      }
-    }
-    if (index++ % step == 0) {
-      side.walls.push_back(sided);
-    }
+  side.metres_a_wall = static_cast<double>(step) * map.level(0).resolution_m;
+  for (std::size_t i = 0; i < map.walls().size(); i += step) {
+    side.walls.push_back({map.walls()[i].at, WallSide(map.walls()[i])});
   }
   return side;
 }
@@ -181,8 +152,7 @@ WallMeeting Evaluator::meet(const Side& fixed, const Side& moving, const Pose2& 
     const std::size_t at = level.offset(column, row);
     if (const std::uint8_t seen_from = fixed.seen_from[at]; seen_from != 0) {
       confirmed += 1;
-      const int octant = ((wall.direction + turn + 4) >> 3) & 7;
-      same_side += wall.has_side ? (seen_from >> octant) & 1 : 0.5;
+      same_side += wall.side.known ? (seen_from >> wall.side.octant_after_64ths(turn)) & 1 : 0.5;
     } else if (level.state[at] == CellState::kOpen && level.wall_distance_m[at] > clear_m) {
       in_free += 1;
       far_in_free += level.wall_distance_m[at] > far_m ? 1 : 0;

@@ -7,6 +7,7 @@
 
 #include "gridmerge/base/options.hpp"
 #include "gridmerge/grid/prepared_map.hpp"
+#include "gridmerge/grid/wall_sides.hpp"
 
 namespace gridmerge {
 
@@ -31,7 +32,8 @@ struct WallMeeting {
   double unseen_m = 0;       ///< the rest: the other map does not know
 };
 
-/// Everything by which a pose is judged. All of it is symmetric: swap the maps, invert the pose, and it stays.
+/// Everything by which a pose is judged. Swap the maps and invert the pose, and it stays: exactly but for the cell by
+/// cell figures, which read the source's cells on the target's, and the fitness, which takes the target's percentages.
 struct Figures {
   // Walls against walls and against free space, each way, apart from free-free agreement.
   WallMeeting source_in_target;
@@ -80,17 +82,15 @@ class Evaluator {
   [[nodiscard]] RandomLevel random_level(std::uint64_t seed) const;
 
  private:
-  /// A wall cell with the side it was seen from, in 1/64 of a turn; kNoSide where not clear.
   struct SidedWall {
     Point2f at;
-    std::uint8_t direction = 0;
-    bool has_side = false;
+    WallSide side;
   };
   struct Side {
     const PreparedMap* map = nullptr;
     std::vector<SidedWall> walls;
     double metres_a_wall = 0;
-    /// For each cell of level 0: which of eight directions the walls within the tolerance were seen from.
+    /// sides_within the tolerance.
     std::vector<std::uint8_t> seen_from;
   };
   [[nodiscard]] Side side_of(const PreparedMap& map) const;

@@ -197,5 +197,27 @@ TEST(Refine, ErrorsOfNoisyScenesAreCoveredByTheCovariance) {
   EXPECT_EQ(honest, kSeeds);
 }
 
+/// Two robots on two sides of a wall see its two faces; what pulls these together stretches the overlap.
+TEST(Refine, IsNotPulledOffByTheOtherFacesOfWalls) {
+  for (const char* name : {"office", "maze"}) {
+    int covered = 0;
+    for (int seed = 1; seed <= 4; ++seed) {
+      const worlds::MapPair pair = worlds::make_scene(known_pair(name, seed));
+      const PreparedMap target(pair.target, 0.05);
+      const PreparedMap source(pair.source, 0.05);
+      const PoseEstimate refined = refine(target, source, pair.target_from_source * Pose2{0.05, -0.04, 0.01}, {});
+      EXPECT_LT(pose_error(pair, refined.pose).distance_m, 0.025) << name << " " << seed;
+      ASSERT_TRUE(refined.covariance);
+      const Eigen::Vector3d off(refined.pose.x_m - pair.target_from_source.x_m,
+                                refined.pose.y_m - pair.target_from_source.y_m,
+                                wrap_angle(refined.pose.theta_rad - pair.target_from_source.theta_rad));
+      const double distance2 = off.dot(refined.covariance->llt().solve(off));
+      RecordProperty(std::string(name) + "_" + std::to_string(seed), std::to_string(distance2));
+      covered += distance2 < 14.16 ? 1 : 0;  // three standard deviations, chi-square of three degrees of freedom
+    }
+    EXPECT_GE(covered, 3) << name;
+  }
+}
+
 }  // namespace
 }  // namespace gridmerge
