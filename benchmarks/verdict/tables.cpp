@@ -112,8 +112,8 @@ std::string weight_table(const VerdictOptions& built_in, const VerdictOptions& f
       values.push_back(options.*weight.value);
     }
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    text += line_of({"`" + std::string(weight.key) + "`", fixed(built_in.*weight.value, 2),
-                     fixed(fitted.*weight.value, 2), values.empty() ? "" : fixed(*low, 2) + " .. " + fixed(*high, 2)});
+    text += line_of({weight.key, fixed(built_in.*weight.value, 2), fixed(fitted.*weight.value, 2),
+                     values.empty() ? "" : fixed(*low, 2) + " .. " + fixed(*high, 2)});
   }
   return text;
 }

@@ -56,12 +56,14 @@ std::vector<double> importance_of(const std::vector<Row>& rows, const std::vecto
     of_kind[row.kind] = 1;
   }
   for (const std::string& argument : arguments) {
-    const std::size_t equals = argument.find('=');
+    const std::size_t equals = std::min(argument.find('='), argument.size());
     const auto kind = of_kind.find(argument.substr(0, equals));
-    if (equals == std::string::npos || kind == of_kind.end() ||
-        !CLI::detail::lexical_cast(argument.substr(equals + 1), kind->second) || !(kind->second >= 0)) {
+    double value = -1;
+    std::istringstream stream(argument.substr(std::min(equals + 1, argument.size())));
+    if (kind == of_kind.end() || !(stream >> value) || !stream.eof() || !(value >= 0)) {
       throw InputError("--weight " + argument, "KIND=NUMBER is wanted: a kind that the rows have, and no less than 0");
     }
+    kind->second = value;
   }
   std::vector<double> importance;
   for (const Row& row : rows) {
