@@ -44,13 +44,13 @@ T median(std::vector<T> values) {
 
 }  // namespace
 
-Setup set_up(const KnownPair& pair, int threads) {
+Setup set_up(const ManifestPair& pair, int threads) {
   const OccupancyGrid target = read_map(pair.target_yaml);
   const OccupancyGrid source = read_map(pair.source_yaml);
   return {.target = prepare_in_start_frame(target, threads),
           .source = prepare_in_start_frame(source, threads),
           .half_side_m = 0.5 * std::max(target.geometry.width, target.geometry.height) * target.geometry.resolution_m,
-          .truth = start_from_map(target) * pair.target_from_source * inverse(start_from_map(source))};
+          .truth = start_from_map(target) * pair.truth->target_from_source * inverse(start_from_map(source))};
 }
 
 SearchWindow window_of(const std::string& scenario, int percent, double half_side_m) {
@@ -59,7 +59,7 @@ SearchWindow window_of(const std::string& scenario, int percent, double half_sid
   return {share * half_side_m, radians(180) * (forest ? std::max(share, 0.3) : share)};
 }
 
-WindowResult run_window(const KnownPair& pair, const Setup& setup, int percent, const ExperimentOptions& options) {
+WindowResult run_window(const ManifestPair& pair, const Setup& setup, int percent, const ExperimentOptions& options) {
   WindowResult result;
   result.window = window_of(pair.scenario, percent, setup.half_side_m);
   result.truth_inside = norm(setup.truth.translation()) <= result.window.radius_m &&
@@ -91,7 +91,8 @@ WindowResult run_window(const KnownPair& pair, const Setup& setup, int percent, 
     }
     const Candidate& best = proposal.candidates.front();
     const PoseDifference error = difference_at(setup.source.centre_in_map(), best.target_from_source, setup.truth);
-    const double tolerances = std::max(error.distance_m / pair.tolerance_m, error.angle_rad / pair.tolerance_rad);
+    const double tolerances =
+        std::max(error.distance_m / pair.truth->tolerance_m, error.angle_rad / pair.truth->tolerance_rad);
     result.exact += tolerances <= 1 ? 1 : 0;
     if (tolerances <= options.tolerance_factor) {
       ++result.converged;

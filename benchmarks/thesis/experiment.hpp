@@ -6,7 +6,7 @@
 
 #include "gridmerge/grid/occupancy_grid.hpp"
 #include "gridmerge/grid/prepared_map.hpp"
-#include "thesis/manifest.hpp"
+#include "manifest/manifest.hpp"
 
 namespace gridmerge::thesis {
 
@@ -26,8 +26,9 @@ struct Setup {
   Pose2 truth;             ///< between the start frames; the start p_i is the identity
 };
 
+/// @param pair  with a truth
 /// @throws InputError if a map cannot be read
-[[nodiscard]] Setup set_up(const KnownPair& pair, int threads);
+[[nodiscard]] Setup set_up(const ManifestPair& pair, int threads);
 
 /// How far the search looks round p_i.
 struct SearchWindow {
@@ -50,7 +51,7 @@ struct WindowResult {
   double iteration_s = 0;       ///< wall time, median over the seeds
 };
 
-[[nodiscard]] WindowResult run_window(const KnownPair& pair, const Setup& setup, int percent,
+[[nodiscard]] WindowResult run_window(const ManifestPair& pair, const Setup& setup, int percent,
                                       const ExperimentOptions& options);
 
 /// What the thesis measured, re-derived from its author's run records.

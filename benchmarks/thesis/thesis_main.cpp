@@ -27,7 +27,7 @@ std::string count(int part, std::size_t of) { return std::to_string(part) + "/" 
 /// 0: there is none.
 std::string iteration(int number) { return number > 0 ? std::to_string(number) : "-"; }
 
-void print_pair(const KnownPair& pair, const Setup& setup) {
+void print_pair(const ManifestPair& pair, const Setup& setup) {
   const HitFitness fitness(setup.target, setup.source);
   std::cout
       << "\n### " << pair.scenario << "\n\n"
@@ -65,8 +65,8 @@ int main(int argc, char** argv) {
   ExperimentOptions options;
   options.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   app.add_option("manifest", manifest,
-                 "CSV file that lists the pairs (columns a, b, truth, tx, ty, theta, tol_m, "
-                 "tol_deg, tags)")
+                 "CSV file that lists the pairs (columns set, a, b, truth, tx, ty, "
+                 "theta, tol_m, tol_deg, tags)")
       ->required();
   app.add_option("--windows", options.window_percent, "Windows [% of half the target map's side]")
       ->delimiter(',')
@@ -87,7 +87,10 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
-    for (const KnownPair& pair : read_manifest(manifest)) {
+    for (const ManifestPair& pair : read_manifest(manifest)) {
+      if (!pair.truth) {
+        continue;
+      }
       const Setup setup = set_up(pair, options.threads);
       print_pair(pair, setup);
       for (const int percent : options.window_percent) {

@@ -135,6 +135,9 @@ std::string threshold_table(const std::vector<Row>& rows, const Judgement& judge
     std::vector<std::string> cells = passing(rows, group, judgement.confidence);
     const auto right =
         std::count_if(group.rows.begin(), group.rows.end(), [&](std::size_t i) { return rows[i].right; });
+    if (right == 0 && cells.front() == "0") {
+      continue;
+    }
     cells.insert(cells.begin(), {group.kind, group.set, std::to_string(group.rows.size()), std::to_string(right)});
     text += line_of(cells);
   }

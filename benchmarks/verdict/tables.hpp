@@ -23,7 +23,7 @@ struct Judgement {
 
 /// In all: log loss, and at each threshold how many right and how many wrong answers pass, with the verdict's gates.
 [[nodiscard]] std::string summary_table(const std::vector<Row>& rows, const std::vector<Judgement>& judgements);
-/// The same per kind and set, for one of them.
+/// The same per kind and set, for one of them; without those where nothing is right and nothing passes.
 [[nodiscard]] std::string threshold_table(const std::vector<Row>& rows, const Judgement& judgement);
 
 }  // namespace gridmerge::verdict_study

@@ -83,6 +83,11 @@ void VerdictOptions::describe(OptionList& list) {
            {"", "How many standard deviations above random poses the evidence must stand at the least.", ""})
       .add("min_confidence", min_confidence, 0, 1,
            {"", "Least confidence of a merge.", "A wrong merge is far worse than a missed one: think before lowering."})
+      .add("spotless_conflict_share", spotless_conflict_share, 0, 1,
+           {"",
+            "Another pose with no more conflict than this, and enough in common to be merged alone, is a doubt however "
+            "far the best one leads.",
+            "A symmetric hall seen from two ends has such a pose; 0 allows it none."})
       .add("bias", bias, -1e3, 1e3, {"", "Confidence: constant term of the logistic function.", ""})
       .add("per_log_same_side", per_log_same_side, -1e3, 1e3,
            {"", "Confidence: per natural logarithm of the wall seen from the same side [m].", ""})
@@ -156,6 +161,14 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_l
   } else if (v.confidence < o.min_confidence && nothing.empty()) {
     doubts.push_back("not sure enough while another pose fits as well as it does: " + leading + "; confidence " +
                      fixed(v.confidence, 2) + " of " + fixed(o.min_confidence, 2) + " wanted");
+  }
+  // Laid over each other as far as they go, two halves of a symmetric hall agree in more than where they really meet. A
+  // lead says nothing then: a pose without conflict cannot be ruled out.
+  if (ranked.size() > 1 && ranked[1].figures.conflict_share < o.spotless_conflict_share &&
+      same_side_m(ranked[1].figures) >= o.min_same_side_m &&
+      confidence_of(ranked[1].figures, 1, o) >= o.min_confidence) {
+    doubts.push_back("another pose fits without conflict: " + fixed(same_side_m(ranked[1].figures), 1) +
+                     " m of wall agree there as well");
   }
   if (!surveyed) {
     doubts.push_back("the search was cut short: other poses that fit as well may have been overlooked");

@@ -36,6 +36,7 @@ struct VerdictOptions {
   double max_conflict_share = 0.33;
   double min_deviations = 1.5;
   double min_confidence = 0.9;
+  double spotless_conflict_share = 0.01;
   // The confidence: a logistic function of seven figures (docs/verdict.md says how the weights were found).
   double bias = -11.7;
   double per_log_same_side = 0.58;

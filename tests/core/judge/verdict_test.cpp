@@ -114,8 +114,19 @@ TEST(Verdict, IsAmbiguousWhereARivalFitsAsWell) {
   EXPECT_THAT(equal.reasons.front(), AllOf(HasSubstr("another pose"), HasSubstr("100 % of the evidence")));
   VerdictOptions options = always_confident();
   options.min_lead = 0.1;
-  EXPECT_EQ(judge({hypothesis(100, 0), hypothesis(91, 0)}, kChance, options).outcome, Outcome::kAmbiguous);
-  EXPECT_EQ(judge({hypothesis(100, 0), hypothesis(89, 0)}, kChance, options).outcome, Outcome::kMerged);
+  // Evidence of 91 and of 89, both with more conflict than a spotless rival.
+  EXPECT_EQ(judge({hypothesis(100, 0), hypothesis(94.5, 2)}, kChance, options).outcome, Outcome::kAmbiguous);
+  EXPECT_EQ(judge({hypothesis(100, 0), hypothesis(92.5, 2)}, kChance, options).outcome, Outcome::kMerged);
+}
+
+/// Two ends of a symmetric hall: laid over each other they agree in more than where they really meet.
+TEST(Verdict, DoubtsAnyLeadOverARivalWithoutConflict) {
+  const Verdict v = judge({hypothesis(200, 0, 300), hypothesis(80, 0, 150)}, kChance, {});
+  EXPECT_GT(v.lead, 0.5);
+  EXPECT_EQ(v.outcome, Outcome::kAmbiguous);
+  EXPECT_THAT(v.reasons.front(), AllOf(HasSubstr("without conflict"), HasSubstr("80.0 m")));
+  EXPECT_EQ(judge({hypothesis(200, 0, 300), hypothesis(80, 4, 150)}, kChance, {}).outcome, Outcome::kMerged);
+  EXPECT_EQ(judge({hypothesis(200, 0, 300), hypothesis(5, 0, 3)}, kChance, {}).outcome, Outcome::kMerged);
 }
 
 TEST(Verdict, NeverMergesWhereRivalsMayHaveBeenOverlooked) {
@@ -166,7 +177,8 @@ TEST(Verdict, NeverMergesWhereAGateIsBroken) {
     if (rival.figures.evidence_m > best.figures.evidence_m) {
       std::swap(ranked[0], ranked[1]);
     }
-    const VerdictOptions o;
+    VerdictOptions o;
+    o.spotless_conflict_share = 0;  // that gate looks at the rival, and has a test of its own
     const Verdict v = judge(ranked, level, o);
     const Figures& f = ranked.front().figures;
     const double same_side_m = f.source_in_target.same_side_m + f.target_in_source.same_side_m;
