@@ -136,6 +136,7 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_l
   // What speaks against overlap at all, and what speaks only against this pose.
   std::vector<std::string> nothing;
   std::vector<std::string> doubts;
+  bool rivalled = false;
   if (best.evidence_m <= 0) {
     nothing.push_back("more walls stand in free space than on walls: " + fixed(in_free_m(best), 1) + " m against " +
                       fixed(same_side_m(best), 1) + " m");
@@ -157,6 +158,7 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_l
                       fixed(unrivalled, 2) + " if no other pose came near; " + fixed(o.min_confidence, 2) + " wanted");
   }
   if (v.lead < o.min_lead) {
+    rivalled = true;
     doubts.push_back("another pose fits about as well: " + leading);
   } else if (v.confidence < o.min_confidence && nothing.empty()) {
     doubts.push_back("not sure enough while another pose fits as well as it does: " + leading + "; confidence " +
@@ -167,6 +169,7 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_l
   if (ranked.size() > 1 && ranked[1].figures.conflict_share < o.spotless_conflict_share &&
       same_side_m(ranked[1].figures) >= o.min_same_side_m &&
       confidence_of(ranked[1].figures, 1, o) >= o.min_confidence) {
+    rivalled = true;
     doubts.push_back("another pose fits without conflict: " + fixed(same_side_m(ranked[1].figures), 1) +
                      " m of wall agree there as well");
   }
@@ -187,8 +190,9 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_l
   v.reasons.push_back(standing);
   add_weak_direction(ranked.front().target_from_source, o, v.reasons);
   if (v.outcome != Outcome::kMerged) {
-    // What is not merged must not look sure of itself.
-    v.confidence = std::min(v.confidence, nothing.empty() ? o.min_confidence : 0.5 * o.min_confidence);
+    // What is not merged must not look sure of itself; of two poses that fit alike, one is right at the best.
+    const double most = !nothing.empty() || rivalled ? 0.5 : 1;
+    v.confidence = std::min(v.confidence, most * o.min_confidence);
   }
   return v;
 }

@@ -152,6 +152,7 @@ TEST(Verdict, ConfidenceDecidesBetweenDoubtAndNothing) {
     }
   }
   options.min_lead = 0;
+  options.spotless_conflict_share = 0;
   options.bias = -1;
   options.per_lead = 4;
   // With all of the lead: 1 / (1 + exp(-3)) = 0.95; with half of it 0.73.
