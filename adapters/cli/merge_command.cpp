@@ -125,11 +125,13 @@ std::string merge_text(const SerialMerge& merge, const MergeArguments& arguments
   return text;
 }
 
-/// All files of the result, or none.
+/// All files of the result, or none. Adds to the report how long fusing took.
 void write_result(const SerialMerge& merge, const std::vector<OccupancyGrid>& maps, const Configuration& configuration,
-                  const MergeArguments& arguments, const Json& report) {
+                  const MergeArguments& arguments, Json& report) {
   const std::vector<PlacedMap> placed = placed_maps(maps, merge.merged);
+  const auto began = std::chrono::steady_clock::now();
   const OccupancyGrid merged = fuse(placed, configuration.fuse(), configuration.threads());
+  report["seconds"]["fuse"] = seconds_since(began);
   std::vector<OverlayMap> named;
   for (std::size_t i = 0; i < placed.size(); ++i) {
     named.push_back({placed[i], std::filesystem::path(arguments.files[merge.merged[i].map]).filename().string()});

@@ -288,6 +288,7 @@ TEST_F(MergeCommand, WritesMapOverlayAndReport) {
   EXPECT_EQ(island.at("maps")[1].at("covariance").size(), 3U);
   EXPECT_TRUE(report.at("left_out").empty());
   EXPECT_EQ(report.at("alignments").size(), 1U);
+  EXPECT_GE(report.at("seconds").at("fuse").get<double>(), 0);
   EXPECT_EQ(report.at("alignments")[0].at("status"), "merged");
   const json& b = island.at("maps")[1].at("pose");
   const Pose2 pose{b.at("x"), b.at("y"), b.at("theta")};

@@ -2,14 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <map>
+#include <optional>
 #include <ostream>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "gridmerge/align/pipeline.hpp"
+#include "manifest/csv_table.hpp"
 #include "map_server/map_files.hpp"
 #include "methods/register_all.hpp"
 
@@ -32,32 +31,14 @@ namespace {
 
 std::filesystem::path data() { return GRIDMERGE_SHARED_DATA; }
 
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) {
-    cells.push_back(cell);
-  }
-  return cells;
-}
-
-/// The row's cells by the names of their columns; empty where there is no such row.
-std::map<std::string, std::string> row_of(const RealPair& pair) {
-  std::ifstream file(data() / pair.folder / "pairs.csv");
-  std::string line;
-  std::getline(file, line);
-  const std::vector<std::string> columns = cells_of(line);
-  while (std::getline(file, line)) {
-    const std::vector<std::string> cells = cells_of(line);
-    std::map<std::string, std::string> row;
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      row[columns[i]] = i < cells.size() ? cells[i] : "";
-    }
-    if (row["a"] == pair.target + ".yaml" && row["b"] == pair.source + ".yaml") {
+/// The manifest's row of that pair; none where there is no such row.
+std::optional<CsvRow> row_of(const RealPair& pair) {
+  for (const CsvRow& row : read_csv(data() / pair.folder / "pairs.csv")) {
+    if (row.text("a") == pair.target + ".yaml" && row.text("b") == pair.source + ".yaml") {
       return row;
     }
   }
-  return {};
+  return std::nullopt;
 }
 
 class RealPairs : public testing::TestWithParam<RealPair> {};
@@ -66,11 +47,10 @@ TEST_P(RealPairs, AreNeverMergedWrongly) {
   if (!std::filesystem::is_directory(data())) {
     GTEST_SKIP() << "the real maps are not here: " << data();
   }
-  std::map<std::string, std::string> row = row_of(GetParam());
-  ASSERT_FALSE(row.empty()) << "no such row in the manifest";
-  const auto number = [&](const std::string& column) { return std::stod(row.at(column)); };
-  const OccupancyGrid target = read_map(data() / GetParam().folder / row.at("a"));
-  const OccupancyGrid source = read_map(data() / GetParam().folder / row.at("b"));
+  const std::optional<CsvRow> row = row_of(GetParam());
+  ASSERT_TRUE(row) << "no such row in the manifest";
+  const OccupancyGrid target = read_map(data() / GetParam().folder / row->text("a"));
+  const OccupancyGrid source = read_map(data() / GetParam().folder / row->text("b"));
   const MethodRegistry registry = all_methods();
   const std::unique_ptr<Merger> method = registry.entries().front().profiles.front().config()->make();
   const PreparedMap prepared_target(target, common_resolution_m(target, source, {}), {}, 2);
@@ -82,7 +62,7 @@ TEST_P(RealPairs, AreNeverMergedWrongly) {
                        {.seed = static_cast<std::uint64_t>(seed), .num_threads = 2});
     const std::string told = "seed " + std::to_string(seed) + ": " + testing::PrintToString(alignment.reasons);
     EXPECT_FALSE(alignment.reasons.empty());
-    if (row.at("truth") == "different") {
+    if (row->text("truth") == "different") {
       EXPECT_NE(alignment.outcome, Outcome::kMerged) << told;
       continue;
     }
@@ -91,10 +71,10 @@ TEST_P(RealPairs, AreNeverMergedWrongly) {
     }
     if (alignment.outcome == Outcome::kMerged) {
       const PoseDifference error =
-          difference_at({number("cx"), number("cy")}, alignment.hypotheses.front().target_from_source.pose,
-                        {number("tx"), number("ty"), number("theta")});
-      EXPECT_LE(error.distance_m, number("tol_m")) << told;
-      EXPECT_LE(degrees(error.angle_rad), number("tol_deg")) << told;
+          difference_at({row->number("cx"), row->number("cy")}, alignment.hypotheses.front().target_from_source.pose,
+                        {row->number("tx"), row->number("ty"), row->number("theta")});
+      EXPECT_LE(error.distance_m, row->number("tol_m")) << told;
+      EXPECT_LE(degrees(error.angle_rad), row->number("tol_deg")) << told;
     }
   }
 }
