@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "gridmerge/align/scored_pose.hpp"
 #include "gridmerge/base/parallel.hpp"
 #include "gridmerge/base/random.hpp"
 
@@ -13,18 +14,11 @@ namespace {
 /// The level of the maps on which poses evolve: fine enough to tell walls apart, coarse enough to be quick.
 constexpr int kEvolveLevel = 1;
 
-struct Individual {
-  Pose2 pose;  ///< between local frames
-  double fitness = 0;
-};
-
-bool fitter(const Individual& a, const Individual& b) { return a.fitness > b.fitness; }
-
 /// Uniform over the window; over every pose at which the maps could touch, where there is none.
-Pose2 uniform_pose(RandomStream& random, const AlignRequest& request, const std::optional<SweepWindow>& window) {
-  const SweepWindow all{
+Pose2 uniform_pose(RandomStream& random, const AlignRequest& request, const std::optional<PoseWindow>& window) {
+  const PoseWindow all{
       .centre = {}, .radius_m = request.target.radius_m() + request.source.radius_m(), .angle_rad = kPi};
-  const SweepWindow& w = window ? *window : all;
+  const PoseWindow& w = window ? *window : all;
   const double way = random.uniform(-kPi, kPi);
   const double far = w.radius_m * std::sqrt(random.uniform());
   return {w.centre.x_m + far * std::cos(way), w.centre.y_m + far * std::sin(way),
@@ -41,26 +35,6 @@ Pose2 mutated(const Pose2& pose, double sigma_m, double sigma_rad, RandomStream&
 Pose2 between(const Pose2& a, const Pose2& b, double share) {
   return {a.x_m + share * (b.x_m - a.x_m), a.y_m + share * (b.y_m - a.y_m),
           wrap_angle(a.theta_rad + share * wrap_angle(b.theta_rad - a.theta_rad))};
-}
-
-/// The best of every niche, fittest first: a pose is left out where a fitter one lies within the niche's reach.
-std::vector<Individual> niche_heads(std::vector<Individual> population, double reach_m, double reach_rad,
-                                    std::size_t at_most) {
-  std::stable_sort(population.begin(), population.end(), fitter);
-  std::vector<Individual> heads;
-  for (const Individual& one : population) {
-    const bool taken = std::any_of(heads.begin(), heads.end(), [&](const Individual& head) {
-      return std::abs(wrap_angle(head.pose.theta_rad - one.pose.theta_rad)) < reach_rad &&
-             norm(head.pose.translation() - one.pose.translation()) < reach_m;
-    });
-    if (!taken) {
-      heads.push_back(one);
-      if (heads.size() == at_most) {
-        break;
-      }
-    }
-  }
-  return heads;
 }
 
 double geometric(double first, double last, double share) { return first * std::pow(last / first, share); }
@@ -105,14 +79,14 @@ MergerTraits GeneticMerger::traits() const {
 
 Proposal GeneticMerger::propose(const AlignRequest& request, const RunContext& context) const {
   const GeneticOptions& o = options_;
-  const std::optional<SweepWindow> window = window_of(request);
+  const std::optional<PoseWindow> window = window_of(request);
   const WallFit fitness(request.target, request.source, kEvolveLevel, o.fit, static_cast<std::size_t>(o.max_points));
   const auto size = static_cast<std::size_t>(o.population);
-  const double reach_rad = radians(o.niche_deg);
+  const PoseReach niche{o.niche_m, radians(o.niche_deg)};
   Proposal proposal;
 
   // First generation: what is known, then the sweep's peaks or chance.
-  std::vector<Individual> population;
+  std::vector<ScoredPose> population;
   RandomStream first(context.seed, "genetic/first generation");
   if (request.prior) {
     const Pose2 start = to_local(request.prior->target_from_source, request.target, request.source);
@@ -135,24 +109,19 @@ Proposal GeneticMerger::propose(const AlignRequest& request, const RunContext& c
     const SweepResult found = correlation_sweep(request.target, request.source, window, sweep, context);
     proposal.stopped = found.stopped;
     proposal.surveyed = !found.stopped;
-    std::vector<Individual> peaks;
-    for (const SweepPeak& peak : found.peaks) {
-      peaks.push_back({peak.local_target_from_source, peak.score});
-    }
-    for (const Individual& head : niche_heads(std::move(peaks), o.niche_m, reach_rad, size)) {
-      population.push_back(head);
-    }
+    const std::vector<ScoredPose> heads = distinct_poses(found.peaks, niche, size);
+    population.insert(population.end(), heads.begin(), heads.end());
   } else {
     for (std::size_t i = 0; i < size; ++i) {
       population.push_back({uniform_pose(first, request, window), 0});
     }
   }
-  std::erase_if(population, [&](const Individual& one) { return !inside(one.pose, window); });
+  std::erase_if(population, [&](const ScoredPose& one) { return !inside(one.pose, window); });
   if (population.empty()) {
     return proposal;
   }
   parallel_for(population.size(), context.num_threads,
-               [&](std::size_t i, std::size_t) { population[i].fitness = fitness(population[i].pose); });
+               [&](std::size_t i, std::size_t) { population[i].score = fitness(population[i].pose); });
 
   // Evolution: every pose against its own children; every fourth generation the weaker half of the niches is given up.
   if (context.trace != nullptr) {
@@ -163,15 +132,15 @@ Proposal GeneticMerger::propose(const AlignRequest& request, const RunContext& c
     const double share = o.generations > 1 ? static_cast<double>(generation) / (o.generations - 1) : 1;
     const double sigma_m = geometric(o.first_sigma_m, o.last_sigma_m, share);
     const double sigma_rad = radians(geometric(o.first_sigma_deg, o.last_sigma_deg, share));
-    const std::vector<Individual> parents = population;
+    const std::vector<ScoredPose> parents = population;
     parallel_for(parents.size(), context.num_threads, [&](std::size_t i, std::size_t) {
       RandomStream random(context.seed, "genetic/children",
                           static_cast<std::uint64_t>(generation) * 1000000 + static_cast<std::uint64_t>(i));
-      Individual& best = population[i];
+      ScoredPose& best = population[i];
       const auto try_child = [&](const Pose2& pose) {
         if (inside(pose, window)) {
           const double f = fitness(pose);
-          if (f > best.fitness) {
+          if (f > best.score) {
             best = {pose, f};
           }
         }
@@ -179,29 +148,30 @@ Proposal GeneticMerger::propose(const AlignRequest& request, const RunContext& c
       for (int m = 0; m < o.mutations; ++m) {
         try_child(mutated(best.pose, sigma_m, sigma_rad, random));
       }
-      const Individual& mate = parents[random.below(static_cast<std::uint32_t>(parents.size()))];
+      const ScoredPose& mate = parents[random.below(static_cast<std::uint32_t>(parents.size()))];
       const PoseDifference apart = difference_at({}, mate.pose, best.pose);
-      if (apart.distance_m < 4 * o.niche_m && apart.angle_rad < 4 * reach_rad) {
+      if (apart.distance_m < 4 * o.niche_m && apart.angle_rad < 4 * niche.angle_rad) {
         try_child(between(best.pose, mate.pose, random.uniform()));      // Eq. 3.13
         try_child({best.pose.x_m, best.pose.y_m, mate.pose.theta_rad});  // Eq. 3.12
       }
     });
     ++proposal.iterations;
     const bool cull = generation % 4 == 3;
-    population = niche_heads(std::move(population), cull ? o.niche_m : 0.02, cull ? reach_rad : radians(0.1),
-                             cull ? std::max<std::size_t>(population.size() / 2, static_cast<std::size_t>(o.candidates))
-                                  : population.size());
+    population =
+        distinct_poses(std::move(population), cull ? niche : PoseReach{0.02, radians(0.1)},
+                       cull ? std::max<std::size_t>(population.size() / 2, static_cast<std::size_t>(o.candidates))
+                            : population.size());
     if (context.trace != nullptr) {
       IterationRecord record{
           .stage = "propose/evolve",
           .iteration = generation,
           .iterations = generations,
-          .best_score = population.front().fitness,
+          .best_score = population.front().score,
           .mean_score = 0,
           .best_target_from_source = from_local(population.front().pose, request.target, request.source),
           .population = {}};
-      for (const Individual& one : population) {
-        record.mean_score += one.fitness / static_cast<double>(population.size());
+      for (const ScoredPose& one : population) {
+        record.mean_score += one.score / static_cast<double>(population.size());
         record.population.push_back(from_local(one.pose, request.target, request.source));
       }
       context.trace->on_iteration(record);
@@ -209,11 +179,10 @@ Proposal GeneticMerger::propose(const AlignRequest& request, const RunContext& c
   }
   proposal.stopped = proposal.stopped || context.stop.stop_requested();
 
-  for (const Individual& one :
-       niche_heads(std::move(population), o.niche_m, reach_rad, static_cast<std::size_t>(o.candidates))) {
-    const Pose2 pose = from_local(one.pose, request.target, request.source);
-    proposal.candidates.push_back({pose, one.fitness});
-    proposal.carry.target_from_source.push_back(pose);
+  const auto heads = distinct_poses(std::move(population), niche, static_cast<std::size_t>(o.candidates));
+  proposal.candidates = candidates_of(heads, request);
+  for (const Candidate& one : proposal.candidates) {
+    proposal.carry.target_from_source.push_back(one.target_from_source);
   }
   return proposal;
 }

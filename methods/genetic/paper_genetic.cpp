@@ -227,7 +227,7 @@ class Evolution {
   std::size_t size_;
   paper::MutationSpread spread_;
   paper::Window window_;
-  std::optional<SweepWindow> fence_;
+  std::optional<PoseWindow> fence_;
   Point2 centre_;
   std::vector<Individual> population_;  ///< best first
   int iteration_ = 0;                   ///< done so far

@@ -1,106 +1,28 @@
 #include "gridmerge/align/correlation_sweep.hpp"
 
-#include <fftw3.h>
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <memory>
-#include <mutex>
 
+#include "gridmerge/base/fourier.hpp"
 #include "gridmerge/base/parallel.hpp"
 
 namespace gridmerge {
 namespace {
 
-/// FFTW's planner is the one part of it that is not thread safe.
-std::mutex& planner_mutex() {
-  static std::mutex mutex;
-  return mutex;
-}
-
-struct FftwFree {
-  void operator()(void* p) const { fftwf_free(p); }
-};
-template <typename T>
-using FftwArray = std::unique_ptr<T[], FftwFree>;
-
-template <typename T>
-FftwArray<T> fftw_array(std::size_t count) {
-  auto* p = static_cast<T*>(fftwf_malloc(sizeof(T) * count));
-  if (p == nullptr) {
-    throw std::bad_alloc();
-  }
-  std::fill(p, p + count, T{});
-  return FftwArray<T>(p);
-}
-
-/// The next size that FFTW transforms fast: a product of 2, 3, 5 and even.
-int fast_size(int at_least) {
-  for (int n = at_least + at_least % 2;; n += 2) {
-    int rest = n;
-    for (const int factor : {2, 3, 5}) {
-      while (rest % factor == 0) {
-        rest /= factor;
-      }
-    }
-    if (rest == 1) {
-      return n;
-    }
-  }
-}
-
-/// Real two-dimensional transforms of one size, forth and back.
-class Transform {
- public:
-  Transform(int width, int height) : width_(width), height_(height) {
-    const auto real = fftw_array<float>(real_size());
-    const auto spectrum = fftw_array<std::complex<float>>(spectrum_size());
-    const std::scoped_lock lock(planner_mutex());
-    auto* raw = reinterpret_cast<fftwf_complex*>(spectrum.get());
-    forward_ = fftwf_plan_dft_r2c_2d(height, width, real.get(), raw, FFTW_ESTIMATE);
-    backward_ = fftwf_plan_dft_c2r_2d(height, width, raw, real.get(), FFTW_ESTIMATE);
-  }
-  ~Transform() {
-    const std::scoped_lock lock(planner_mutex());
-    fftwf_destroy_plan(forward_);
-    fftwf_destroy_plan(backward_);
-  }
-  Transform(const Transform&) = delete;
-  Transform& operator=(const Transform&) = delete;
-
-  [[nodiscard]] std::size_t real_size() const {
-    return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-  }
-  [[nodiscard]] std::size_t spectrum_size() const {
-    return static_cast<std::size_t>(width_ / 2 + 1) * static_cast<std::size_t>(height_);
-  }
-  void forward(float* real, std::complex<float>* spectrum) const {
-    fftwf_execute_dft_r2c(forward_, real, reinterpret_cast<fftwf_complex*>(spectrum));
-  }
-  void backward(std::complex<float>* spectrum, float* real) const {
-    fftwf_execute_dft_c2r(backward_, reinterpret_cast<fftwf_complex*>(spectrum), real);
-  }
-
- private:
-  int width_;
-  int height_;
-  fftwf_plan forward_ = nullptr;
-  fftwf_plan backward_ = nullptr;
-};
-
 /// What one thread needs to do one angle.
 struct Scratch {
-  FftwArray<float> walls;
-  FftwArray<float> table;
-  FftwArray<std::complex<float>> walls_spectrum;
-  FftwArray<std::complex<float>> table_spectrum;
+  FourierArray<float> walls;
+  FourierArray<float> table;
+  FourierArray<std::complex<float>> walls_spectrum;
+  FourierArray<std::complex<float>> table_spectrum;
 
-  explicit Scratch(const Transform& transform)
-      : walls(fftw_array<float>(transform.real_size())),
-        table(fftw_array<float>(transform.real_size())),
-        walls_spectrum(fftw_array<std::complex<float>>(transform.spectrum_size())),
-        table_spectrum(fftw_array<std::complex<float>>(transform.spectrum_size())) {}
+  explicit Scratch(const RealTransform& transform)
+      : walls(real_array(transform.real_size())),
+        table(real_array(transform.real_size())),
+        walls_spectrum(spectrum_array(transform.spectrum_size())),
+        table_spectrum(spectrum_array(transform.spectrum_size())) {}
 };
 
 /// The level whose transform stays below `max_cells`, or the coarsest.
@@ -117,7 +39,7 @@ int choose_level(const PreparedMap& target, const PreparedMap& source, int max_c
   return level;
 }
 
-std::vector<double> sweep_angles(const std::optional<SweepWindow>& window, double step) {
+std::vector<double> sweep_angles(const std::optional<PoseWindow>& window, double step) {
   std::vector<double> angles;
   if (!window || window->angle_rad >= kPi - step / 2) {
     const int count = static_cast<int>(std::ceil(2 * kPi / step));
@@ -135,30 +57,14 @@ std::vector<double> sweep_angles(const std::optional<SweepWindow>& window, doubl
 
 }  // namespace
 
-std::optional<SweepWindow> window_of(const AlignRequest& request) {
-  if (!request.prior || (!request.prior->radius_m && !request.prior->angle_rad)) {
-    return std::nullopt;
-  }
-  const double anywhere = request.target.radius_m() + request.source.radius_m();
-  return SweepWindow{.centre = to_local(request.prior->target_from_source, request.target, request.source),
-                     .radius_m = request.prior->radius_m.value_or(anywhere),
-                     .angle_rad = request.prior->angle_rad.value_or(kPi)};
-}
-
-bool inside(const Pose2& local_target_from_source, const std::optional<SweepWindow>& window) {
-  return !window ||
-         (norm(local_target_from_source.translation() - window->centre.translation()) <= window->radius_m &&
-          std::abs(wrap_angle(local_target_from_source.theta_rad - window->centre.theta_rad)) <= window->angle_rad);
-}
-
 SweepResult correlation_sweep(const PreparedMap& target, const PreparedMap& source,
-                              const std::optional<SweepWindow>& window, const SweepOptions& options,
+                              const std::optional<PoseWindow>& window, const SweepOptions& options,
                               const RunContext& context) {
   // The smaller map is the one to turn: the transform is then smaller. A window lies in the target's frame, and stays.
   if (!window && source.radius_m() > target.radius_m()) {
     SweepResult swapped = correlation_sweep(source, target, window, options, context);
-    for (SweepPeak& peak : swapped.peaks) {
-      peak.local_target_from_source = inverse(peak.local_target_from_source);
+    for (ScoredPose& peak : swapped.peaks) {
+      peak.pose = inverse(peak.pose);
     }
     return swapped;
   }
@@ -176,13 +82,13 @@ SweepResult correlation_sweep(const PreparedMap& target, const PreparedMap& sour
   const int reach = static_cast<int>(std::ceil(source.radius_m() / resolution)) + 1;
   const int width = fast_size(target_level.width + 2 * reach);
   const int height = fast_size(target_level.height + 2 * reach);
-  const Transform transform(width, height);
+  const RealTransform transform(width, height);
   const auto at = [&](int column, int row) {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
   };
 
-  const auto target_walls_spectrum = fftw_array<std::complex<float>>(transform.spectrum_size());
-  const auto target_table_spectrum = fftw_array<std::complex<float>>(transform.spectrum_size());
+  const auto target_walls_spectrum = spectrum_array(transform.spectrum_size());
+  const auto target_table_spectrum = spectrum_array(transform.spectrum_size());
   {
     Scratch scratch(transform);
     for (int row = 0; row < target_level.height; ++row) {
@@ -203,7 +109,7 @@ SweepResult correlation_sweep(const PreparedMap& target, const PreparedMap& sour
   const std::vector<double> angles = sweep_angles(window, options.angle_step_rad);
   const auto workers = static_cast<std::size_t>(std::max(1, context.num_threads));
   std::vector<std::unique_ptr<Scratch>> scratch_of(workers);
-  std::vector<std::vector<SweepPeak>> peaks_of(angles.size());
+  std::vector<std::vector<ScoredPose>> peaks_of(angles.size());
   std::atomic<bool> stopped = false;
 
   parallel_for(angles.size(), context.num_threads, [&](std::size_t index, std::size_t worker) {
@@ -254,9 +160,9 @@ SweepResult correlation_sweep(const PreparedMap& target, const PreparedMap& sour
     transform.backward(scratch.walls_spectrum.get(), score);
 
     // Cell (u, v) of the result: the source moved by (u, v) cells, cyclically; from -2 reach to the target's size.
-    std::vector<SweepPeak>& peaks = peaks_of[index];
+    std::vector<ScoredPose>& peaks = peaks_of[index];
     const float unit = 1.0F / static_cast<float>(transform.real_size());
-    const auto worse = [](const SweepPeak& a, const SweepPeak& b) { return a.score > b.score; };
+    const auto worse = [](const ScoredPose& a, const ScoredPose& b) { return a.score > b.score; };
     float bar = 0;
     const auto consider = [&](int column, int row) {
       const int left = column == 0 ? width - 1 : column - 1;
@@ -296,11 +202,11 @@ SweepResult correlation_sweep(const PreparedMap& target, const PreparedMap& sour
 
   SweepResult result{
       .peaks = {}, .resolution_m = resolution, .angles = static_cast<int>(angles.size()), .stopped = stopped};
-  for (const std::vector<SweepPeak>& peaks : peaks_of) {
+  for (const std::vector<ScoredPose>& peaks : peaks_of) {
     result.peaks.insert(result.peaks.end(), peaks.begin(), peaks.end());
   }
   std::stable_sort(result.peaks.begin(), result.peaks.end(),
-                   [](const SweepPeak& a, const SweepPeak& b) { return a.score > b.score; });
+                   [](const ScoredPose& a, const ScoredPose& b) { return a.score > b.score; });
   return result;
 }
 

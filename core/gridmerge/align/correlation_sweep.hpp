@@ -7,7 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "gridmerge/align/merger.hpp"
+#include "gridmerge/align/pose_window.hpp"
+#include "gridmerge/align/scored_pose.hpp"
 #include "gridmerge/align/wall_fit.hpp"
 
 namespace gridmerge {
@@ -19,34 +20,16 @@ struct SweepOptions {
   WallFitOptions fit;
 };
 
-/// Where to look: all poses that put the source's local origin within `radius_m` of where `centre` puts it, turned by
-/// at most `angle_rad`.
-struct SweepWindow {
-  Pose2 centre;  ///< between local frames
-  double radius_m = 0;
-  double angle_rad = kPi;
-};
-
-/// The window that a request's prior allows; none: anywhere. (A prior without radius and angle is no fence.)
-[[nodiscard]] std::optional<SweepWindow> window_of(const AlignRequest& request);
-
-/// Whether a pose between local frames lies in the window; always, where there is none.
-[[nodiscard]] bool inside(const Pose2& local_target_from_source, const std::optional<SweepWindow>& window);
-
-struct SweepPeak {
-  Pose2 local_target_from_source;
-  double score = 0;  ///< the smooth fitness at the sweep's resolution
-};
-
 struct SweepResult {
-  std::vector<SweepPeak> peaks;  ///< local maxima over translation, at most peaks_per_angle an angle; best first
+  /// Local maxima over translation of the smooth fitness, at most peaks_per_angle an angle; best first.
+  std::vector<ScoredPose> peaks;
   double resolution_m = 0;
   int angles = 0;
   bool stopped = false;
 };
 
 [[nodiscard]] SweepResult correlation_sweep(const PreparedMap& target, const PreparedMap& source,
-                                            const std::optional<SweepWindow>& window, const SweepOptions& options,
+                                            const std::optional<PoseWindow>& window, const SweepOptions& options,
                                             const RunContext& context);
 
 }  // namespace gridmerge

@@ -78,8 +78,8 @@ std::vector<Candidate> rivals(const AlignRequest& request, const RunContext& con
   const SweepOptions sweep{.angle_step_rad = radians(3), .max_cells = 300, .peaks_per_angle = 6, .fit = {}};
   const SweepResult found = correlation_sweep(request.target, request.source, window_of(request), sweep, context);
   std::vector<Candidate> candidates;
-  for (const SweepPeak& peak : found.peaks) {
-    const Pose2 pose = from_local(peak.local_target_from_source, request.target, request.source);
+  for (const ScoredPose& peak : found.peaks) {
+    const Pose2 pose = from_local(peak.pose, request.target, request.source);
     const bool taken = std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& other) {
       const PoseDifference apart = difference_at(request.source.centre_in_map(), other.target_from_source, pose);
       return apart.distance_m < 1 && apart.angle_rad < radians(6);
@@ -169,7 +169,7 @@ Alignment align_prepared(const AlignRequest& request, const Merger& method, cons
   alignment.seconds.judge = watch.lap();
 
   if (options.refine || proposed < hypotheses.size()) {
-    const std::optional<SweepWindow> window = window_of(request);
+    const std::optional<PoseWindow> window = window_of(request);
     const Refiner refiner(target, source, options.refinement);
     announce(context, "refine");
     // A rival that the pipeline found comes on top: the method's own best must not fall out of the refinement for it.

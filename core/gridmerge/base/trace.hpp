@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "gridmerge/base/view.hpp"
 #include "gridmerge/grid/pose2.hpp"
 
 namespace gridmerge {
@@ -24,6 +25,9 @@ class TraceSink {
   virtual ~TraceSink() = default;
   virtual void on_stage(const std::string& /*name*/) {}
   virtual void on_iteration(const IterationRecord& /*record*/) {}
+  /// Whether on_view is worth a method's time. It asks before it makes a view, which may cost more than the method.
+  [[nodiscard]] virtual bool wants_views() const { return false; }
+  virtual void on_view(const View& /*view*/) {}
 };
 
 }  // namespace gridmerge

@@ -119,12 +119,12 @@ SweepOptions level_for(int max_cells) {
 }
 
 /// A window of every place, but one angle.
-SweepWindow one_angle(double angle_rad) { return {.centre = {0, 0, angle_rad}, .radius_m = 1000, .angle_rad = 0}; }
+PoseWindow one_angle(double angle_rad) { return {.centre = {0, 0, angle_rad}, .radius_m = 1000, .angle_rad = 0}; }
 
 void expect_same(const SweepResult& a, const SweepResult& b) {
   ASSERT_EQ(a.peaks.size(), b.peaks.size());
   for (std::size_t i = 0; i < a.peaks.size(); ++i) {
-    EXPECT_EQ(a.peaks[i].local_target_from_source, b.peaks[i].local_target_from_source);
+    EXPECT_EQ(a.peaks[i].pose, b.peaks[i].pose);
     EXPECT_EQ(a.peaks[i].score, b.peaks[i].score);
   }
 }
@@ -142,9 +142,9 @@ TEST(CorrelationSweep, EqualsSumsByHandAtOneAngle) {
       EXPECT_EQ(result.resolution_m, 0.2);
       ASSERT_FALSE(result.peaks.empty());
       std::vector<std::pair<int, int>> found;
-      for (const SweepPeak& peak : result.peaks) {
-        EXPECT_NEAR(peak.local_target_from_source.theta_rad, wrap_angle(angle), 1e-12);
-        found.push_back(by_hand.shift_of(peak.local_target_from_source));
+      for (const ScoredPose& peak : result.peaks) {
+        EXPECT_NEAR(peak.pose.theta_rad, wrap_angle(angle), 1e-12);
+        found.push_back(by_hand.shift_of(peak.pose));
         EXPECT_NEAR(peak.score, by_hand.score(found.back()), 1e-3);
       }
       const std::vector<std::pair<int, int>> expected = by_hand.clear_peaks(0.01);
@@ -175,7 +175,7 @@ TEST(CorrelationSweep, FindsMapsThatTouchOnlyAtTheirCorners) {
   ASSERT_FALSE(result.peaks.empty());
   // Turned by half a turn, the source's corner lies on the target's.
   const Pose2 truth = to_local({6, 6, kPi}, target, source);
-  EXPECT_LT(norm(result.peaks.front().local_target_from_source.translation() - truth.translation()), 0.3);
+  EXPECT_LT(norm(result.peaks.front().pose.translation() - truth.translation()), 0.3);
 }
 
 TEST(CorrelationSweep, FindsTheTruthAmongAllPoses) {
@@ -187,7 +187,7 @@ TEST(CorrelationSweep, FindsTheTruthAmongAllPoses) {
     EXPECT_EQ(result.angles, 180);
     ASSERT_FALSE(result.peaks.empty());
     EXPECT_LE(result.peaks.size(), 180U * 12U);
-    const Pose2 best = from_local(result.peaks.front().local_target_from_source, target, source);
+    const Pose2 best = from_local(result.peaks.front().pose, target, source);
     const PoseDifference error = pose_error(pair, best);
     EXPECT_LT(error.distance_m, 0.4) << "seed " << seed;
     EXPECT_LT(degrees(error.angle_rad), 3) << "seed " << seed;
@@ -203,7 +203,7 @@ TEST(CorrelationSweep, PeaksComeBestFirstAndNeverBelowNothing) {
   for (std::size_t i = 0; i < result.peaks.size(); ++i) {
     EXPECT_GT(result.peaks[i].score, 0);
     EXPECT_LE(result.peaks[i].score, result.peaks[i == 0 ? 0 : i - 1].score);
-    EXPECT_LE(++of_angle[result.peaks[i].local_target_from_source.theta_rad], 5);
+    EXPECT_LE(++of_angle[result.peaks[i].pose.theta_rad], 5);
   }
   // Of each angle the best are kept: the greatest of all are the same, however few are asked for.
   const SweepResult one_each = correlation_sweep(target, source, std::nullopt, at_most(1), {});
@@ -216,8 +216,8 @@ TEST(CorrelationSweep, ScoresAreTheSmoothFitnessUpToItsResolution) {
   const PreparedMap source(drawn(Place::kFlat, {.place_from_map = {0, 3, -2}, .from_x_m = 2}), 0.05);
   const SweepResult result = correlation_sweep(target, source, std::nullopt, {}, {});
   const WallFit fit(target, source, 2, {}, 1000000);
-  const SweepPeak& best = result.peaks.front();
-  EXPECT_NEAR(best.score, fit(best.local_target_from_source), 0.15 * best.score);
+  const ScoredPose& best = result.peaks.front();
+  EXPECT_NEAR(best.score, fit(best.pose), 0.15 * best.score);
 }
 
 TEST(CorrelationSweep, KeepsToItsWindow) {
@@ -225,18 +225,18 @@ TEST(CorrelationSweep, KeepsToItsWindow) {
   const PreparedMap target(pair.target, 0.05);
   const PreparedMap source(pair.source, 0.05);
   const Pose2 truth = to_local(pair.target_from_source, target, source);
-  const SweepWindow round_the_truth{
+  const PoseWindow round_the_truth{
       .centre = {truth.x_m + 0.5, truth.y_m - 0.3, wrap_angle(truth.theta_rad + 0.1)}, .radius_m = 1, .angle_rad = 0.2};
-  const SweepWindow elsewhere{
+  const PoseWindow elsewhere{
       .centre = {truth.x_m + 6, truth.y_m, wrap_angle(truth.theta_rad + 2)}, .radius_m = 1.5, .angle_rad = 0.3};
-  for (const SweepWindow& window : {round_the_truth, elsewhere}) {
+  for (const PoseWindow& window : {round_the_truth, elsewhere}) {
     for (const auto& [t, s] : {std::pair{&target, &source}, {&source, &target}}) {
-      SweepWindow w = window;
+      PoseWindow w = window;
       w.centre = t == &target ? window.centre : inverse(window.centre);
       const SweepResult result = correlation_sweep(*t, *s, w, {}, {});
       ASSERT_FALSE(result.peaks.empty());
-      for (const SweepPeak& peak : result.peaks) {
-        const PoseDifference off = difference_at({}, peak.local_target_from_source, w.centre);
+      for (const ScoredPose& peak : result.peaks) {
+        const PoseDifference off = difference_at({}, peak.pose, w.centre);
         EXPECT_LE(off.distance_m, w.radius_m + result.resolution_m + 1e-9);
         EXPECT_LE(off.angle_rad, w.angle_rad + 1e-9);
       }
@@ -245,7 +245,7 @@ TEST(CorrelationSweep, KeepsToItsWindow) {
     }
   }
   const SweepResult near = correlation_sweep(target, source, round_the_truth, {}, {});
-  const PoseDifference error = difference_at({}, near.peaks.front().local_target_from_source, truth);
+  const PoseDifference error = difference_at({}, near.peaks.front().pose, truth);
   EXPECT_LT(error.distance_m, 0.4);
   EXPECT_LT(degrees(error.angle_rad), 3);
 }
@@ -258,8 +258,7 @@ TEST(CorrelationSweep, SeesTheSamePeaksWhicheverMapIsTheTarget) {
   ASSERT_EQ(forth.peaks.size(), back.peaks.size());
   for (std::size_t i = 0; i < 20; ++i) {
     EXPECT_NEAR(forth.peaks[i].score, back.peaks[i].score, 1e-3);
-    const PoseDifference off =
-        difference_at({}, forth.peaks[i].local_target_from_source, inverse(back.peaks[i].local_target_from_source));
+    const PoseDifference off = difference_at({}, forth.peaks[i].pose, inverse(back.peaks[i].pose));
     EXPECT_LT(off.distance_m, 1e-9);
     EXPECT_LT(off.angle_rad, 1e-9);
   }
@@ -291,7 +290,7 @@ TEST(CorrelationSweep, WorksOnASingleWallCell) {
   const SweepResult result = correlation_sweep(post, post, std::nullopt, {}, {});
   ASSERT_FALSE(result.peaks.empty());
   EXPECT_GT(result.peaks.front().score, 0.4);  // specks of half a cell, each on the other
-  EXPECT_LT(norm(result.peaks.front().local_target_from_source.translation()), 0.5);
+  EXPECT_LT(norm(result.peaks.front().pose.translation()), 0.5);
 }
 
 TEST(CorrelationSweep, TakesACoarserLevelForLargerMaps) {

@@ -38,7 +38,7 @@ std::int8_t corridor_at(Point2 p) {
 
 }  // namespace
 
-OccupancyGrid drawn(Place place, const View& view) {
+OccupancyGrid drawn(Place place, const PlacedView& view) {
   const double depth_m = place == Place::kFlat ? kFlatDepth : kCorridorDepth;
   const Pose2 grid_from_place = Pose2{0, 0, -view.origin_yaw_rad} * inverse(view.place_from_map);
   Point2 low = grid_from_place * Point2{view.from_x_m, 0};

@@ -11,7 +11,7 @@ enum class Place {
 };
 
 /// What a robot has mapped, and in which frame.
-struct View {
+struct PlacedView {
   Pose2 place_from_map;
   double resolution_m = 0.05;
   double origin_yaw_rad = 0;
@@ -19,10 +19,10 @@ struct View {
   double to_x_m = 12;
 };
 
-[[nodiscard]] OccupancyGrid drawn(Place place, const View& view);
+[[nodiscard]] OccupancyGrid drawn(Place place, const PlacedView& view);
 
 /// The truth about two views of one place.
-[[nodiscard]] inline Pose2 target_from_source(const View& target, const View& source) {
+[[nodiscard]] inline Pose2 target_from_source(const PlacedView& target, const PlacedView& source) {
   return inverse(target.place_from_map) * source.place_from_map;
 }
 

@@ -48,8 +48,8 @@ class Told final : public Merger {
 
 /// Two overlapping views of the flat, as grids.
 struct FlatGrids {
-  View target_view{.place_from_map = {0.3, -0.4, 0.2}, .to_x_m = 9};
-  View source_view{.place_from_map = {2, 5, -1.1}, .origin_yaw_rad = 0.5, .from_x_m = 3};
+  PlacedView target_view{.place_from_map = {0.3, -0.4, 0.2}, .to_x_m = 9};
+  PlacedView source_view{.place_from_map = {2, 5, -1.1}, .origin_yaw_rad = 0.5, .from_x_m = 3};
   OccupancyGrid target = drawn(Place::kFlat, target_view);
   OccupancyGrid source = drawn(Place::kFlat, source_view);
   Pose2 truth = target_from_source(target_view, source_view);

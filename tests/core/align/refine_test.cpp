@@ -20,7 +20,7 @@ struct DrawnPair {
   PreparedMap source;
   Pose2 truth;
 
-  DrawnPair(Place place, const View& target_view, const View& source_view)
+  DrawnPair(Place place, const PlacedView& target_view, const PlacedView& source_view)
       : target(drawn(place, target_view), 0.05),
         source(drawn(place, source_view), 0.05),
         truth(target_from_source(target_view, source_view)) {}
@@ -146,8 +146,8 @@ TEST(Refine, GivesTheStartBackForTooFewWalls) {
 }
 
 TEST(Refine, StaysTheSameWhereverTheMapFramesLie) {
-  const View target_view{.place_from_map = {0.3, -0.4, 0.2}, .to_x_m = 9};
-  const View source_view{.place_from_map = {2, 5, -1.1}, .from_x_m = 3};
+  const PlacedView target_view{.place_from_map = {0.3, -0.4, 0.2}, .to_x_m = 9};
+  const PlacedView source_view{.place_from_map = {2, 5, -1.1}, .from_x_m = 3};
   const DrawnPair near{Place::kFlat, target_view, source_view};
   OccupancyGrid far_target = drawn(Place::kFlat, target_view);
   OccupancyGrid far_source = drawn(Place::kFlat, source_view);
