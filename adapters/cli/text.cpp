@@ -76,7 +76,7 @@ std::string alignment_text(const Alignment& alignment, double load_seconds) {
   }
   text += "\nWhy\n" + list_text(reasons_of(alignment));
   if (hypotheses.size() > 1) {
-    text += "\nOther poses, by evidence\n";
+    text += "\nOther poses, best first\n";
     const double best_m = hypotheses.front().figures.evidence_m;
     for (std::size_t i = 1; i < hypotheses.size(); ++i) {
       const double evidence_m = hypotheses[i].figures.evidence_m;

@@ -95,9 +95,8 @@ std::vector<Candidate> rivals(const AlignRequest& request, const RunContext& con
 }
 
 void rank(std::vector<Hypothesis>& hypotheses) {
-  std::stable_sort(hypotheses.begin(), hypotheses.end(), [](const Hypothesis& a, const Hypothesis& b) {
-    return a.figures.evidence_m > b.figures.evidence_m;
-  });
+  std::stable_sort(hypotheses.begin(), hypotheses.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.figures.support_m > b.figures.support_m; });
 }
 
 }  // namespace
@@ -200,12 +199,12 @@ Alignment align_prepared(const AlignRequest& request, const Merger& method, cons
   alignment.hypotheses = distinct(hypotheses, source.centre_in_map(), options.verdict,
                                   static_cast<std::size_t>(std::max(2, options.hypotheses)));
   if (!alignment.hypotheses.empty()) {
-    // All figures for the best and for its first rival: both enter the verdict.
-    parallel_for(std::min<std::size_t>(2, alignment.hypotheses.size()), context.num_threads,
-                 [&](std::size_t i, std::size_t) {
-                   Hypothesis& one = alignment.hypotheses[i];
-                   one.figures = evaluator.figures(one.target_from_source.pose);
-                 });
+    // All figures of the best and of its strongest rival: both enter the verdict.
+    const std::size_t rival = strongest_rival(alignment.hypotheses);
+    parallel_for(rival < alignment.hypotheses.size() ? 2 : 1, context.num_threads, [&](std::size_t i, std::size_t) {
+      Hypothesis& one = alignment.hypotheses[i == 0 ? 0 : rival];
+      one.figures = evaluator.figures(one.target_from_source.pose);
+    });
     alignment.random_level = evaluator.random_level(context.seed);
   }
   alignment.verdict = judge(alignment.hypotheses, alignment.random_level, options.verdict, proposal.surveyed);

@@ -77,6 +77,11 @@ void EvaluatorOptions::describe(OptionList& list) {
       .add("conflict_weight", conflict_weight, 0, 10,
            {"", "Metres of confirmed wall that a metre of wall in the other's free space outweighs.",
             "Lower it where things moved between the two visits."})
+      .add(
+          "near_conflict_power", near_conflict_power, 0, 20,
+          {"",
+           "How steeply walls a little off in free space lower a pose's rank, beyond what they take from its evidence.",
+           "0 ranks by evidence alone: wrong poses that lay much on much then pass right ones that overlap little."})
       .add("c_lock", c_lock, 0, 1, {"cells", "Weight of dis - agr in the random walk's figure delta (Eq. 2.5).", ""})
       .add("random_poses", random_poses, 2, 10000,
            {"poses", "Poses drawn to learn what chance gives.", "Time grows with it, a little."})
@@ -87,6 +92,7 @@ void EvaluatorOptions::describe(OptionList& list) {
 
 std::vector<std::pair<std::string, double>> Figures::named() const {
   return {{"evidence_m", evidence_m},
+          {"support_m", support_m},
           {"conflict_share", conflict_share},
           {"far_conflict_share", far_conflict_share},
           {"same_side_share", same_side_share},
@@ -182,6 +188,9 @@ Figures Evaluator::wall_figures(const Pose2& target_from_source) const {
   const double far_in_free = f.source_in_target.far_in_free_m + f.target_in_source.far_in_free_m;
   const double confirmed = f.source_in_target.confirmed_m + f.target_in_source.confirmed_m;
   f.evidence_m = same_side - options_.conflict_weight * in_free;
+  const double near_conflict_share = share(in_free - far_in_free, same_side);
+  f.support_m =
+      f.evidence_m > 0 ? f.evidence_m * std::pow(1 - near_conflict_share, options_.near_conflict_power) : f.evidence_m;
   f.conflict_share = share(in_free, same_side);
   f.far_conflict_share = share(far_in_free, same_side);
   f.same_side_share = confirmed > 0 ? same_side / confirmed : 0;

@@ -14,6 +14,7 @@ namespace gridmerge {
 struct EvaluatorOptions {
   double tolerance_m = 0.2;
   double conflict_weight = 1.75;
+  double near_conflict_power = 2.5;
   double c_lock = 1e-3;
   int random_poses = 48;
   int max_points = 8000;
@@ -38,8 +39,11 @@ struct Figures {
   // Walls against walls and against free space, each way, apart from free-free agreement.
   WallMeeting source_in_target;
   WallMeeting target_in_source;
-  double evidence_m = 0;      ///< same_side_m - conflict_weight * in_free_m, both ways: what hypotheses are ranked by
-  double conflict_share = 0;  ///< in_free_m / (in_free_m + same_side_m), both ways
+  double evidence_m = 0;  ///< same_side_m - conflict_weight * in_free_m, both ways
+  /// evidence_m * (1 - near conflict share)^near_conflict_power, evidence_m where that is negative: what hypotheses are
+  /// ranked by. Near conflict: walls in free space within three tolerances of a wall, of those and the same_side_m.
+  double support_m = 0;
+  double conflict_share = 0;      ///< in_free_m / (in_free_m + same_side_m), both ways
   double far_conflict_share = 0;  ///< far_in_free_m / (far_in_free_m + same_side_m), both ways
   double same_side_share = 0;     ///< same_side_m / confirmed_m, both ways
 

@@ -109,6 +109,16 @@ void VerdictOptions::describe(OptionList& list) {
            {"m", "A direction less certain than this (standard deviation) is named among the reasons.", ""});
 }
 
+std::size_t strongest_rival(const std::vector<Hypothesis>& ranked) {
+  std::size_t rival = ranked.size();
+  for (std::size_t i = 1; i < ranked.size(); ++i) {
+    if (rival == ranked.size() || ranked[i].figures.evidence_m > ranked[rival].figures.evidence_m) {
+      rival = i;
+    }
+  }
+  return rival;
+}
+
 Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_level, const VerdictOptions& o,
               bool surveyed) {
   Verdict v;
@@ -117,7 +127,9 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_l
     return v;
   }
   const Figures& best = ranked.front().figures;
-  const double other = ranked.size() > 1 ? std::max(0.0, ranked[1].figures.evidence_m) : 0;
+  const std::size_t rival_at = strongest_rival(ranked);
+  const Hypothesis* const rival = rival_at < ranked.size() ? &ranked[rival_at] : nullptr;
+  const double other = rival != nullptr ? std::max(0.0, rival->figures.evidence_m) : 0;
   v.lead_m = std::max(0.0, best.evidence_m - other);
   v.lead = best.evidence_m > 0 ? v.lead_m / best.evidence_m : 0;
   v.deviations = random_level.deviation_m > 0 ? (best.evidence_m - random_level.mean_m) / random_level.deviation_m : 0;
@@ -129,7 +141,8 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_l
                                " m stand in the other's free space (" + percent(best.conflict_share) + "), over " +
                                fixed(best.overlap_area_m2, 0) + " m2 known in both";
   const std::string leading = ranked.size() > 1
-                                  ? "the next distinct pose has " + percent(1 - v.lead) + " of the evidence"
+                                  ? "the strongest other pose has " +
+                                        percent(best.evidence_m > 0 ? other / best.evidence_m : 1) + " of the evidence"
                                   : "no other pose was put forward";
   const std::string standing =
       "the evidence stands " + fixed(v.deviations, 1) + " standard deviations above random poses";
@@ -166,11 +179,10 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_l
   }
   // Laid over each other as far as they go, two halves of a symmetric hall agree in more than where they really meet. A
   // lead says nothing then: a pose without conflict cannot be ruled out.
-  if (ranked.size() > 1 && ranked[1].figures.conflict_share < o.spotless_conflict_share &&
-      same_side_m(ranked[1].figures) >= o.min_same_side_m &&
-      confidence_of(ranked[1].figures, 1, o) >= o.min_confidence) {
+  if (rival != nullptr && rival->figures.conflict_share < o.spotless_conflict_share &&
+      same_side_m(rival->figures) >= o.min_same_side_m && confidence_of(rival->figures, 1, o) >= o.min_confidence) {
     rivalled = true;
-    doubts.push_back("another pose fits without conflict: " + fixed(same_side_m(ranked[1].figures), 1) +
+    doubts.push_back("another pose fits without conflict: " + fixed(same_side_m(rival->figures), 1) +
                      " m of wall agree there as well");
   }
   if (!surveyed) {

@@ -24,7 +24,7 @@ enum class Outcome {
 /// A pose with what the Evaluator says of it.
 struct Hypothesis {
   PoseEstimate target_from_source;  ///< between map frames
-  Figures figures;                  ///< all of them for the first two hypotheses, the wall figures for the others
+  Figures figures;                  ///< all of them for the first hypothesis and its strongest rival, else the walls'
   double method_score = 0;
   bool proposed = true;  ///< by the method; false: a rival that the pipeline found
 };
@@ -58,13 +58,16 @@ struct VerdictOptions {
 struct Verdict {
   Outcome outcome = Outcome::kNoOverlap;
   double confidence = 0;             ///< 0..1 that the first hypothesis is right
-  double lead = 0;                   ///< 1 - (evidence of the best distinct other pose) / (evidence of the first), 0..1
+  double lead = 0;                   ///< 1 - (most evidence of another distinct pose) / (evidence of the first), 0..1
   double lead_m = 0;                 ///< the same as a difference [m of wall]
   double deviations = 0;             ///< how many standard deviations the evidence stands above random poses'
   std::vector<std::string> reasons;  ///< in words, with figures; the decisive one first; never empty
 };
 
-/// @param ranked  the hypothesis to judge, then the others, best evidence first; no two closer than the verdict's
+/// The index of the hypothesis other than the first that has the most evidence; ranked.size() where there is none.
+[[nodiscard]] std::size_t strongest_rival(const std::vector<Hypothesis>& ranked);
+
+/// @param ranked  the hypothesis to judge, then the others, most support first; no two closer than the verdict's
 ///                distinct_m and distinct_deg
 /// @param surveyed  nobody has overlooked a rival; false: never merged
 [[nodiscard]] Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_level,

@@ -51,6 +51,24 @@ TEST(Evaluator, CountsAgreementCellByCell) {
   EXPECT_NEAR(f.fitness, 6, 1e-12);                // walls on walls, all of them of 100 percent
 }
 
+TEST(Evaluator, SupportDiscountsEvidenceByTheShareOfNearConflict) {
+  // A wall of the source three cells beside the target's: beyond the tolerance of 1 m, within three of them.
+  const Drawn maps(text_map({"#....", "#....", "#....", "#....", "#...."}),
+                   text_map({"#....", "#....", "#....", "#....", "...#."}));
+  const Figures f = maps.figures();
+  const double same_side = f.source_in_target.same_side_m + f.target_in_source.same_side_m;
+  const double near = f.source_in_target.in_free_m + f.target_in_source.in_free_m;
+  ASSERT_GT(f.evidence_m, 0);
+  ASSERT_GT(near, 0);
+  ASSERT_EQ(f.far_conflict_share, 0);
+  const double agreeing = same_side / (same_side + near);
+  EXPECT_NEAR(f.support_m, f.evidence_m * std::pow(agreeing, EvaluatorOptions{}.near_conflict_power), 1e-9);
+  EXPECT_EQ(maps.figures({}, {.near_conflict_power = 0}).support_m, f.evidence_m);
+  const Figures nowhere = maps.figures({3, 0, 0});
+  ASSERT_LT(nowhere.evidence_m, 0);
+  EXPECT_EQ(nowhere.support_m, nowhere.evidence_m);
+}
+
 TEST(Evaluator, FitnessAddsTheTargetsOccupancyUnderTheSourcesWalls) {
   const Drawn maps(text_map({"879..6"}), text_map({"##.##8"}));
   EXPECT_NEAR(maps.figures().fitness, 0.8 + 0.7, 1e-6);  // 60 percent is no wall

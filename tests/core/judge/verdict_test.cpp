@@ -53,6 +53,21 @@ TEST(Verdict, MergesWhatNothingSpeaksAgainst) {
   EXPECT_NEAR(v.deviations, 9.825, 1e-9);
 }
 
+TEST(StrongestRival, HasTheMostEvidenceOfAllOthers) {
+  EXPECT_EQ(strongest_rival({hypothesis(80, 1), hypothesis(20, 4), hypothesis(60, 4), hypothesis(10, 0)}), 2U);
+  EXPECT_EQ(strongest_rival({hypothesis(80, 1)}), 1U);
+  EXPECT_EQ(strongest_rival({}), 0U);
+}
+
+TEST(Verdict, LeadsOverTheStrongestRivalWhereverItIsRanked) {
+  const Verdict v = judge({hypothesis(80, 1), hypothesis(20, 1), hypothesis(60, 2)}, kChance, {});
+  EXPECT_NEAR(v.lead_m, 78.25 - 56.5, 1e-9);
+  // A rival with more evidence than the first: ranked lower for its conflict, and a doubt.
+  const Verdict passed = judge({hypothesis(80, 1), hypothesis(120, 15)}, kChance, always_confident());
+  EXPECT_EQ(passed.lead, 0);
+  EXPECT_EQ(passed.outcome, Outcome::kAmbiguous);
+}
+
 TEST(Verdict, LeadsByAllItHasWhereThereIsNoRival) {
   const Verdict alone = judge({hypothesis(80, 1)}, kChance, {});
   EXPECT_EQ(alone.outcome, Outcome::kMerged);
