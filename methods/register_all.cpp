@@ -1,5 +1,6 @@
 #include "methods/register_all.hpp"
 
+#include "methods/correlative/correlative.hpp"
 #include "methods/genetic/genetic.hpp"
 #include "methods/genetic/paper_genetic.hpp"
 
@@ -26,6 +27,15 @@ MethodRegistry all_methods() {
                         "default", "anywhere, any angle, no window needed; uses a prior where there is one"),
                     profile<PaperGeneticOptions, PaperGeneticMerger>(
                         "paper", "as published: a window round a start pose, mean split, mutation, two crossovers")}});
+  registry.add(
+      {.name = "correlative",
+       .summary = "every pose of a lattice is scored, and the best one proved to be the best",
+       .paper = "E. Olson: Real-time correlative scan matching, ICRA 2009; W. Hess, D. Kohler, H. Rapp, D. Andor: "
+                "Real-time loop closure in 2D LIDAR SLAM, ICRA 2016",
+       .profiles = {profile<CorrelativeOptions, CorrelativeMerger>(
+                        "default", "walls on walls both ways, walls in free space cost; the best poses climb on"),
+                    profile<PaperCorrelativeOptions, CorrelativeMerger>(
+                        "paper", "Olson 2009: the source's walls in the target's smooth field, the lattice's best")}});
   return registry;
 }
 

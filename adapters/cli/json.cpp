@@ -52,6 +52,7 @@ Json alignment_json(const Alignment& alignment) {
           {"covariance", best == nullptr ? Json() : covariance_json(best->target_from_source.covariance)},
           {"confidence", alignment.confidence},
           {"reasons", reasons_of(alignment)},
+          {"remarks", alignment.remarks},
           {"hypotheses", hypotheses},
           {"figures",
            best == nullptr ? Json::object() : figures_json(best->figures, alignment.verdict, alignment.random_level)},
@@ -80,11 +81,12 @@ Json configuration_json(Configuration& configuration) {
   for (const Configuration::Section& section : configuration.sections()) {
     options[section.name] = options_json(section.options);
   }
-  return {{"method", configuration.method()},
-          {"profile", configuration.profile()},
-          {"seed", configuration.seed()},
-          {"threads", configuration.threads()},
-          {"options", options}};
+  Json plugins = Json::array();
+  for (const std::filesystem::path& plugin : configuration.plugins()) {
+    plugins.push_back(plugin.string());
+  }
+  return {{"method", configuration.method()}, {"profile", configuration.profile()}, {"plugins", plugins},
+          {"seed", configuration.seed()},     {"threads", configuration.threads()}, {"options", options}};
 }
 
 Json options_json(const OptionList& options) {

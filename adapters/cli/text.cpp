@@ -75,6 +75,9 @@ std::string alignment_text(const Alignment& alignment, double load_seconds) {
             pose_text(best.pose) + "\n  standard deviation " + deviation_text(best.covariance) + "\n";
   }
   text += "\nWhy\n" + list_text(reasons_of(alignment));
+  if (!alignment.remarks.empty()) {
+    text += "\nOf the search\n" + list_text(alignment.remarks);
+  }
   if (hypotheses.size() > 1) {
     text += "\nOther poses, best first\n";
     const double best_m = hypotheses.front().figures.evidence_m;

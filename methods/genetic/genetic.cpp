@@ -104,8 +104,7 @@ Proposal GeneticMerger::propose(const AlignRequest& request, const RunContext& c
     if (context.trace != nullptr) {
       context.trace->on_stage("propose/sweep");
     }
-    const SweepOptions sweep{
-        .angle_step_rad = radians(o.angle_step_deg), .max_cells = 420, .peaks_per_angle = 12, .fit = o.fit};
+    const SweepOptions sweep{.lattice = {.angle_step_rad = radians(o.angle_step_deg), .fit = o.fit}};
     const SweepResult found = correlation_sweep(request.target, request.source, window, sweep, context);
     proposal.stopped = found.stopped;
     proposal.surveyed = !found.stopped;

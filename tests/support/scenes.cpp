@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "gridmerge/base/random.hpp"
+
 namespace gridmerge {
 
 std::vector<KnownPair> known_pairs() {
@@ -50,6 +52,22 @@ Point2 centre_of_known(const OccupancyGrid& grid) {
 
 PoseDifference pose_error(const worlds::MapPair& pair, const Pose2& target_from_source) {
   return difference_at(centre_of_known(pair.source), target_from_source, pair.target_from_source);
+}
+
+PreparedMap posts_and_walls(std::uint64_t seed, int width, int height) {
+  OccupancyGrid grid = unknown_grid({.width = width, .height = height, .resolution_m = 0.05, .map_from_grid = {}});
+  std::fill(grid.cells.begin(), grid.cells.end(), kFree);
+  RandomStream random(seed, "posts and walls");
+  for (int k = 0; k < 8; ++k) {
+    const int column = static_cast<int>(random.below(static_cast<std::uint32_t>(width - 12)));
+    const int row = static_cast<int>(random.below(static_cast<std::uint32_t>(height - 12)));
+    const int length = 3 + static_cast<int>(random.below(9));
+    const bool upright = random.below(2) == 0;
+    for (int i = 0; i < length; ++i) {
+      grid.at({column + (upright ? 0 : i), row + (upright ? i : 0)}) = kOccupied;
+    }
+  }
+  return PreparedMap(grid, 0.05);
 }
 
 }  // namespace gridmerge

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gridmerge/grid/prepared_map.hpp"
 #include "worlds/scene.hpp"
 
 namespace gridmerge {
@@ -28,5 +29,8 @@ struct KnownPair {
 
 /// How far an answer is off the truth, at the centre of the source's known cells.
 [[nodiscard]] PoseDifference pose_error(const worlds::MapPair& pair, const Pose2& target_from_source);
+
+/// Posts and short walls in a free field of so many cells of 0.05 m: a map small enough to try every pose.
+[[nodiscard]] PreparedMap posts_and_walls(std::uint64_t seed, int width, int height);
 
 }  // namespace gridmerge

@@ -7,17 +7,14 @@
 #include <optional>
 #include <vector>
 
-#include "gridmerge/align/pose_window.hpp"
+#include "gridmerge/align/pose_lattice.hpp"
 #include "gridmerge/align/scored_pose.hpp"
-#include "gridmerge/align/wall_fit.hpp"
 
 namespace gridmerge {
 
 struct SweepOptions {
-  double angle_step_rad = radians(2);
-  int max_cells = 420;  ///< side of the transform [cells]: the level is chosen to stay below it, where it can
+  LatticeOptions lattice;
   int peaks_per_angle = 12;
-  WallFitOptions fit;
 };
 
 struct SweepResult {

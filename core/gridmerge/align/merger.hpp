@@ -53,6 +53,7 @@ struct Proposal {
   /// The candidates hold the best distinct poses of all there are (or of the prior's fence), not of one basin only.
   /// Where they do not, the pipeline seeks rivals itself: a lead over nobody is worth nothing.
   bool surveyed = false;
+  std::vector<std::string> remarks = {};  ///< what is worth knowing of the search, in words: a bound, a proof
 };
 
 struct MergerTraits {

@@ -41,6 +41,9 @@ std::optional<std::string> unusable(const PreparedMap& map, const std::string& w
   return std::nullopt;
 }
 
+/// Share of a pose's evidence that its refinement must keep.
+constexpr double kEvidenceKept = 0.97;
+
 void announce(const RunContext& context, const std::string& stage) {
   if (context.trace != nullptr) {
     context.trace->on_stage(stage);
@@ -75,7 +78,8 @@ std::vector<Hypothesis> distinct(std::vector<Hypothesis> ranked, Point2 source_c
 /// The poses of a coarse sweep that stand out: what a method that climbs one hill has not looked at.
 std::vector<Candidate> rivals(const AlignRequest& request, const RunContext& context) {
   constexpr std::size_t kRivals = 24;
-  const SweepOptions sweep{.angle_step_rad = radians(3), .max_cells = 300, .peaks_per_angle = 6, .fit = {}};
+  const SweepOptions sweep{.lattice = {.angle_step_rad = radians(3), .coarsest_level = 3, .max_cells = 300},
+                           .peaks_per_angle = 6};
   const SweepResult found = correlation_sweep(request.target, request.source, window_of(request), sweep, context);
   std::vector<Candidate> candidates;
   for (const ScoredPose& peak : found.peaks) {
@@ -144,6 +148,7 @@ Alignment align_prepared(const AlignRequest& request, const Merger& method, cons
   Alignment alignment;
   Proposal proposal = method.propose(request, context);
   alignment.carry = std::move(proposal.carry);
+  alignment.remarks = std::move(proposal.remarks);
   alignment.iterations = proposal.iterations;
   alignment.stopped = proposal.stopped;
   std::vector<Candidate> candidates = std::move(proposal.candidates);
@@ -185,8 +190,9 @@ Alignment align_prepared(const AlignRequest& request, const Merger& method, cons
       if (!inside(to_local(refined.pose, target, source), window)) {
         return;
       }
-      // The two disagree only where little agrees at all; the evidence is what is judged by.
-      if (figures.evidence_m >= one.figures.evidence_m) {
+      // Within its tolerance the evidence says little: there the refinement knows better. Where they clearly disagree,
+      // little agrees at all, and the evidence is what is judged by.
+      if (figures.evidence_m >= kEvidenceKept * one.figures.evidence_m) {
         one.target_from_source.pose = refined.pose;
         one.figures = figures;
       }

@@ -36,6 +36,7 @@ struct Alignment {
   Outcome outcome = Outcome::kDeclined;
   double confidence = 0;
   std::vector<std::string> reasons;    ///< never empty
+  std::vector<std::string> remarks;    ///< the method's own, on its search
   std::vector<Hypothesis> hypotheses;  ///< distinct, best first; empty where there is no pose at all
   Verdict verdict;                     ///< lead, deviations: zero where nothing was judged
   RandomLevel random_level;

@@ -12,18 +12,18 @@ double table_sum(const FitTable& table, const std::vector<ThinnedWall>& points, 
   const float scale = static_cast<float>(1 / level.resolution_m);
   const float c = static_cast<float>(std::cos(table_from_points.theta_rad)) * scale;
   const float s = static_cast<float>(std::sin(table_from_points.theta_rad)) * scale;
-  const float x0 = static_cast<float>(table_from_points.x_m - level.lower_left.x_m) * scale;
-  const float y0 = static_cast<float>(table_from_points.y_m - level.lower_left.y_m) * scale;
+  // One more than the column and the row: truncation then takes nothing from outside of the level into it.
+  const float x0 = static_cast<float>(table_from_points.x_m - level.lower_left.x_m) * scale + 1;
+  const float y0 = static_cast<float>(table_from_points.y_m - level.lower_left.y_m) * scale + 1;
   const auto width = static_cast<std::uint32_t>(level.width);
   const auto height = static_cast<std::uint32_t>(level.height);
   const std::int8_t* values = table.value.data();
   float sum = 0;
   for (const auto& [p, weight] : points) {
-    // Truncation takes (-1, 0) to 0 as well: that is the outermost cell of the margin, which is unknown.
     const float x = std::clamp(c * p.x_m - s * p.y_m + x0, -1e6F, 1e6F);  // what a cast to int can take
     const float y = std::clamp(s * p.x_m + c * p.y_m + y0, -1e6F, 1e6F);
-    const auto column = static_cast<std::uint32_t>(static_cast<std::int32_t>(x));
-    const auto row = static_cast<std::uint32_t>(static_cast<std::int32_t>(y));
+    const auto column = static_cast<std::uint32_t>(static_cast<std::int32_t>(x) - 1);
+    const auto row = static_cast<std::uint32_t>(static_cast<std::int32_t>(y) - 1);
     const bool within = column < width && row < height;
     sum += within ? weight * static_cast<float>(values[row * width + column]) : 0.0F;
   }

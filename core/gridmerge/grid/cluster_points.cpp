@@ -201,8 +201,8 @@ Neuron neuron_of(const Won& won) {
           .sided = won.sided > 0.5F * won.weight};
 }
 
-/// The batch rule [kohonen]: each neuron goes to the mean of what it and its neighbours have won, a neighbour's share
-/// falling with its distance. With no radius it is left with its own.
+/// The batch rule of Kohonen (Self-Organizing Maps, 1995): each neuron goes to the mean of what it and its neighbours
+/// have won, a neighbour's share falling with its distance. With no radius it is left with its own.
 std::vector<Neuron> moved(const std::vector<Neuron>& neurons, const std::vector<Won>& won, const NeuronGrid& grid,
                           float radius, int num_threads) {
   std::vector<Neuron> next = neurons;
@@ -312,12 +312,12 @@ std::vector<WallSample> wall_samples(const PreparedMap& map) {
   std::vector<WallSample> samples;
   samples.reserve(sums.size());
   for (const Sum& sum : sums) {
-    const bool sided = std::hypot(sum.free.x_m, sum.free.y_m) > 0.5F * sum.n;
-    samples.push_back({.at = {sum.x / sum.n, sum.y / sum.n},
-                       .normal = sided ? unit_or_zero(sum.free.x_m, sum.free.y_m)
-                                       : unit_or_zero(sum.surface.x_m, sum.surface.y_m),
-                       .sided = sided,
-                       .weight = std::min(1.0F, sum.n / across) * static_cast<float>(level.resolution_m)});
+    const bool sided = std::hypot(sum.free.x_m, sum.free.y_m) > 0.4F * sum.n;
+    samples.push_back(
+        {.at = {sum.x / sum.n, sum.y / sum.n},
+         .normal = sided ? unit_or_zero(sum.free.x_m, sum.free.y_m) : unit_or_zero(sum.surface.x_m, sum.surface.y_m),
+         .sided = sided,
+         .weight = std::min(1.0F, sum.n / across) * static_cast<float>(level.resolution_m)});
   }
   return samples;
 }
@@ -346,8 +346,8 @@ ClusterPoints cluster_points(const PreparedMap& map, const ClusterOptions& optio
   for (int epoch = 0; epoch < options.epochs && !stop.stop_requested(); ++epoch) {
     // The last epochs without a neighbourhood: it rounds corners off and draws the ends of walls in.
     const int shrinking = std::max(1, options.epochs - 2);
-    const float radius = ground.spacing * 0.5F * static_cast<float>(std::max(0, shrinking - epoch)) /
-                         static_cast<float>(shrinking);
+    const float radius =
+        ground.spacing * 0.5F * static_cast<float>(std::max(0, shrinking - epoch)) / static_cast<float>(shrinking);
     const NeuronGrid grid(neurons, ground.low, ground.high, ground.spacing);
     find_winners(samples, neurons, grid, ground.spacing, num_threads, owner);
     neurons = moved(neurons, won_by(samples, owner, neurons.size()), grid, radius, num_threads);

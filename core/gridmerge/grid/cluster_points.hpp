@@ -8,8 +8,7 @@
 ///
 /// Error: `ClusterPoints` says how far walls lie from their point. Along a wall that is about a quarter of the spacing
 /// in the mean; across it, what matters to a match, a fraction of a cell, for a point lies on the mean of its walls.
-/// Cost: linear in walls times epochs; benchmark figures stand in methods/som/README.md, and so does an example of
-/// scoring poses on cluster points.
+/// Cost: linear in walls times epochs. methods/som/README.md shows how to score poses on cluster points.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -38,7 +37,7 @@ struct ClusterPoint {
 
 struct ClusterOptions {
   double spacing_m = 0.4;
-  int at_most = 1500;
+  int at_most = 4000;
   int epochs = 5;
 
   void describe(OptionList& list);
@@ -54,8 +53,8 @@ struct ClusterPoints {
 
 [[nodiscard]] std::vector<WallSample> wall_samples(const PreparedMap& map);
 
-/// Learns at most `at_most` cluster points. The same at any number of threads; stopped early, what it has learnt so far.
-/// A map without walls has none.
+/// Learns at most `at_most` cluster points. The same at any number of threads; stopped early, what it has learnt so
+/// far. A map without walls has none.
 /// @throws std::invalid_argument listing every option out of range
 [[nodiscard]] ClusterPoints cluster_points(const PreparedMap& map, const ClusterOptions& options, int num_threads = 1,
                                            const StopToken& stop = {});

@@ -60,7 +60,7 @@ inline constexpr float kFarFromWalls = 1e6F;
 /// move the map least, and single precision is enough there however far off the map's own origin lies.
 class PreparedMap {
  public:
-  static constexpr int kLevels = 4;
+  static constexpr int kLevels = 5;
 
   /// @param grid  a valid grid (check_grid)
   /// @param resolution_m  side of a cell of level 0; not finer than the grid's own resolution
