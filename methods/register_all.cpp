@@ -3,6 +3,10 @@
 #include "methods/correlative/correlative.hpp"
 #include "methods/genetic/genetic.hpp"
 #include "methods/genetic/paper_genetic.hpp"
+#include "methods/hough_spectrum/hough_spectrum.hpp"
+#include "methods/hough_spectrum/paper_hough_spectrum.hpp"
+#include "methods/radon_voronoi/paper_radon_voronoi.hpp"
+#include "methods/radon_voronoi/radon_voronoi.hpp"
 
 namespace gridmerge {
 namespace {
@@ -27,6 +31,26 @@ MethodRegistry all_methods() {
                         "default", "anywhere, any angle, no window needed; uses a prior where there is one"),
                     profile<PaperGeneticOptions, PaperGeneticMerger>(
                         "paper", "as published: a window round a start pose, mean split, mutation, two crossovers")}});
+  registry.add(
+      {.name = "hough_spectrum",
+       .summary = "rotations from Hough spectra, translations from X- and Y-spectra, the best of them climbed",
+       .paper = "S. Carpin: Fast and accurate map merging for multi-robot systems, Autonomous Robots 25(3), 2008",
+       .profiles = {profile<HoughSpectrumOptions, HoughSpectrumMerger>(
+                        "default", "spectra by facing and stretch, sub-degree rotations; any angle, no window needed"),
+                    profile<PaperHoughSpectrumOptions, PaperHoughSpectrumMerger>(
+                        "paper", "as published: one best translation a rotation, ranked by the acceptance index")}});
+  registry.add(
+      {.name = "radon_voronoi",
+       .summary = "rotation from Radon transforms, translation from the edges of Voronoi diagrams",
+       .paper =
+           "S. Saeedi, L. Paull, M. Trentini, M. Seto, H. Li: Efficient map merging using a probabilistic "
+           "generalized Voronoi diagram, IROS 2012; the same: Group mapping: a topological approach to map merging "
+           "for multiple robots, IEEE Robotics & Automation Magazine 21(2), 2014",
+       .profiles = {
+           profile<RadonVoronoiOptions, RadonVoronoiMerger>(
+               "default", "several rotations by directed Radon transforms, votes of edges and vertices, climb"),
+           profile<PaperRadonVoronoiOptions, PaperRadonVoronoiMerger>(
+               "paper", "as published: one rotation, thinning by morphology, edge matrices, no climb")}});
   registry.add(
       {.name = "correlative",
        .summary = "every pose of a lattice is scored, and the best one proved to be the best",

@@ -37,6 +37,41 @@ Pose2 between(const Pose2& a, const Pose2& b, double share) {
           wrap_angle(a.theta_rad + share * wrap_angle(b.theta_rad - a.theta_rad))};
 }
 
+/// Where poses put the source's centre.
+Shape centres(std::string label, const std::vector<ScoredPose>& poses) {
+  Shape shape{.kind = Shape::Kind::kPoints, .label = std::move(label), .points = {}};
+  for (const ScoredPose& one : poses) {
+    shape.points.push_back(one.pose.translation());
+  }
+  return shape;
+}
+
+/// How the fitness grew, generation by generation.
+struct Growth {
+  Curve best{.label = "fittest", .x = {}, .y = {}};
+  Curve mean{.label = "mean of the population", .x = {}, .y = {}};
+
+  void add(const IterationRecord& record) {
+    for (auto& [curve, score] : {std::pair{&best, record.best_score}, {&mean, record.mean_score}}) {
+      curve->x.push_back(record.iteration);
+      curve->y.push_back(score);
+    }
+  }
+};
+
+void show(const std::vector<ScoredPose>& first, const std::vector<ScoredPose>& last, const Growth& growth,
+          TraceSink& trace) {
+  trace.on_view({"population", "The population of poses; the fittest of the last generation drawn",
+                 MapView{.map = MapView::Map::kBoth,
+                         .local_target_from_source = last.front().pose,
+                         .shapes = {centres("source's centre, first generation", first),
+                                    centres("last generation, niche by niche", last)}}});
+  trace.on_view(
+      {"fitness", "Fitness, generation by generation",
+       CurvesView{
+           .curves = {growth.best, growth.mean}, .x_label = "generation", .y_label = "fitness [points]", .marks = {}}});
+}
+
 double geometric(double first, double last, double share) { return first * std::pow(last / first, share); }
 
 }  // namespace
@@ -126,6 +161,9 @@ Proposal GeneticMerger::propose(const AlignRequest& request, const RunContext& c
   if (context.trace != nullptr) {
     context.trace->on_stage("propose/evolve");
   }
+  const bool views = context.trace != nullptr && context.trace->wants_views();
+  const std::vector<ScoredPose> first_generation = views ? population : std::vector<ScoredPose>{};
+  Growth growth;
   const int generations = std::min(o.generations, context.stop.iteration_budget());
   for (int generation = 0; generation < generations && !context.stop.stop_requested(); ++generation) {
     const double share = o.generations > 1 ? static_cast<double>(generation) / (o.generations - 1) : 1;
@@ -174,11 +212,15 @@ Proposal GeneticMerger::propose(const AlignRequest& request, const RunContext& c
         record.population.push_back(from_local(one.pose, request.target, request.source));
       }
       context.trace->on_iteration(record);
+      growth.add(record);
     }
   }
   proposal.stopped = proposal.stopped || context.stop.stop_requested();
 
   const auto heads = distinct_poses(std::move(population), niche, static_cast<std::size_t>(o.candidates));
+  if (views) {
+    show(first_generation, heads, growth, *context.trace);
+  }
   proposal.candidates = candidates_of(heads, request);
   for (const Candidate& one : proposal.candidates) {
     proposal.carry.target_from_source.push_back(one.target_from_source);
