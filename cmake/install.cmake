@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 set(gridmerge_headers ${CMAKE_INSTALL_INCLUDEDIR}/gridmerge)
 set(gridmerge_package ${CMAKE_INSTALL_LIBDIR}/cmake/gridmerge)
 
-install(TARGETS gridmerge_core gridmerge_config gridmerge_map_server gridmerge_methods gridmerge_cli
+install(TARGETS gridmerge_core gridmerge_config gridmerge_map_server gridmerge_methods gridmerge_plugin gridmerge_cli
         EXPORT gridmergeTargets
         INCLUDES DESTINATION ${gridmerge_headers})
 
@@ -13,6 +13,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/core/gridmerge/ DESTINATION ${gridmerge_
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/adapters/config ${PROJECT_SOURCE_DIR}/adapters/map_server
         DESTINATION ${gridmerge_headers}/adapters
         FILES_MATCHING PATTERN *.hpp)
+install(FILES ${PROJECT_SOURCE_DIR}/adapters/plugin/method_plugin.hpp DESTINATION ${gridmerge_headers}/adapters/plugin)
 install(FILES ${PROJECT_SOURCE_DIR}/methods/register_all.hpp DESTINATION ${gridmerge_headers}/methods)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 

@@ -37,7 +37,7 @@ int run_align(const AlignArguments& arguments, const MethodRegistry& methods, st
 
   const StopToken stop = stop_after(time_limit);
   const Interrupt interrupt(stop);
-  Watch watch(progress, trace);
+  Watch watch({&progress, &trace});
   const Alignment alignment = align({maps[0], maps[1], prior}, configuration.merger(), configuration.pipeline(),
                                     {configuration.seed(), configuration.threads(), stop, &watch});
   progress.finish();

@@ -42,9 +42,18 @@ Pose2 pose_of(const std::vector<double>& values) { return {values[0], values[1],
 
 }  // namespace
 
+void add_plugin_argument(CLI::App& command, std::vector<std::string>& plugins) {
+  command
+      .add_option("--plugin", plugins,
+                  "Shared library with further methods, run as part of this program; may be repeated")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+}
+
 void add_configuration_arguments(CLI::App& command, ConfigurationChoice& choice) {
   command.add_option("--config", choice.file, "Configuration file (YAML); the command line wins over it")
       ->type_name("FILE");
+  add_plugin_argument(command, choice.plugins);
   command.add_option("--set", choice.set, "Sets one option, e.g. verdict.min_lead=0.2; may be repeated. See 'config'")
       ->type_name("SECTION.KEY=VALUE")
       ->allow_extra_args(false);
@@ -53,10 +62,14 @@ void add_configuration_arguments(CLI::App& command, ConfigurationChoice& choice)
       ->type_name("N");
 }
 
+void add_profile_argument(CLI::App& command, ConfigurationChoice& choice) {
+  command.add_option("--profile", choice.profile, "A named set of the method's options (default)")->type_name("NAME");
+}
+
 void add_method_arguments(CLI::App& command, ConfigurationChoice& choice) {
   command.add_option("--method", choice.method, "The method that proposes poses; 'gridmerge methods' lists them")
       ->type_name("NAME");
-  command.add_option("--profile", choice.profile, "A named set of the method's options (default)")->type_name("NAME");
+  add_profile_argument(command, choice);
 }
 
 void add_search_arguments(CLI::App& command, SearchArguments& arguments) {

@@ -20,8 +20,12 @@ struct SearchArguments {
   std::string trace;
 };
 
-/// --config, --set, --seed, --threads
+/// --plugin
+void add_plugin_argument(CLI::App& command, std::vector<std::string>& plugins);
+/// --config, --plugin, --set, --seed, --threads
 void add_configuration_arguments(CLI::App& command, ConfigurationChoice& choice);
+/// --profile
+void add_profile_argument(CLI::App& command, ConfigurationChoice& choice);
 /// --method, --profile
 void add_method_arguments(CLI::App& command, ConfigurationChoice& choice);
 /// --prior, --time-limit, --trace

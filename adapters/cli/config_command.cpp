@@ -73,15 +73,21 @@ Command config_command(const CommandContext& context) {
 }
 
 Command check_config_command(const CommandContext& context) {
-  const auto files = std::make_shared<std::vector<std::string>>();
+  struct Arguments {
+    std::vector<std::string> files;
+    std::vector<std::string> plugins;
+  };
+  const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = context.app.add_subcommand("check-config", "Loads configuration files and tells every problem");
-  command->add_option("FILES", *files, "Configuration files (YAML)")->required();
+  command->add_option("FILES", arguments->files, "Configuration files (YAML)")->required();
+  add_plugin_argument(*command, arguments->plugins);
   command->footer("\nExit status: 0 all are good, 1 one is not, 2 wrong usage.");
   const MethodRegistry& methods = context.methods;
-  return {command, [files, &methods](std::ostream& out) {
-            for (const std::string& file : *files) {
+  return {command, [arguments, &methods](std::ostream& out) {
+            for (const std::string& file : arguments->files) {
               ConfigurationChoice choice;
               choice.file = file;
+              choice.plugins = arguments->plugins;
               (void)Configuration(methods, choice);
             }
             out << "ok\n";

@@ -4,11 +4,13 @@
 #include <limits>
 #include <set>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 
 #include "cli/usage_error.hpp"
 #include "config/config_file.hpp"
 #include "gridmerge/base/error.hpp"
+#include "plugin/plugin_loader.hpp"
 
 namespace gridmerge::cli {
 namespace {
@@ -34,10 +36,49 @@ const Named& chosen(const std::vector<Named>& all, const std::string& key, const
   }
   const std::string rule = "is not known; known: " + names_of(all);
   if (!from_command_line.empty()) {
-    throw UsageError("--" + key + " " + name + ": " + rule);
+    throw UsageError(key + " " + name + ": " + rule);
   }
   file.reject(key, rule);
   return all.front();
+}
+
+/// Where a library lies, however it is written.
+std::filesystem::path real_path(const std::filesystem::path& file) {
+  std::error_code error;
+  std::filesystem::path real = std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
+  return error ? std::filesystem::absolute(file) : real;
+}
+
+/// The libraries that the file names, relative to its folder.
+std::vector<std::filesystem::path> plugins_of(ConfigFile& file, const std::string& name) {
+  std::vector<std::filesystem::path> plugins;
+  for (const std::string& plugin : file.values("plugins")) {
+    plugins.push_back(real_path(std::filesystem::path(name).parent_path() / plugin));
+  }
+  return plugins;
+}
+
+/// @throws InputError that names the configuration file as well
+MethodRegistry with_plugins_of_file(const MethodRegistry& methods, const std::vector<std::filesystem::path>& plugins,
+                                    const std::string& file) {
+  try {
+    return with_plugins(methods, plugins);
+  } catch (const InputError& error) {
+    throw InputError(file, std::string("plugins: ") + error.what());
+  }
+}
+
+/// Those that are not among the known ones.
+std::vector<std::filesystem::path> further_plugins(const std::vector<std::string>& named,
+                                                   const std::vector<std::filesystem::path>& known) {
+  std::vector<std::filesystem::path> further;
+  for (const std::string& plugin : named) {
+    const std::filesystem::path file = real_path(plugin);
+    if (std::find(known.begin(), known.end(), file) == known.end()) {
+      further.push_back(file);
+    }
+  }
+  return further;
 }
 
 /// Applies one "section.key=value". @return the problem, or an empty string
@@ -65,8 +106,12 @@ void RunOptions::describe(OptionList& list) {
            {"", "How many threads work at a time; 0: as many as the machine has.", "Does not change the answer."});
 }
 
-Configuration::Configuration(const MethodRegistry& registry, const ConfigurationChoice& choice) {
+Configuration::Configuration(const MethodRegistry& built_in, const ConfigurationChoice& choice) {
   ConfigFile file = choice.file.empty() ? ConfigFile::parse("", "") : ConfigFile::read(choice.file);
+  plugins_ = plugins_of(file, choice.file);
+  const std::vector<std::filesystem::path> further = further_plugins(choice.plugins, plugins_);
+  const MethodRegistry registry = with_plugins(with_plugins_of_file(built_in, plugins_, choice.file), further);
+  plugins_.insert(plugins_.end(), further.begin(), further.end());
   const MethodEntry& method = chosen(registry.entries(), "method", choice.method, file);
   const MethodProfile& profile = chosen(method.profiles, "profile", choice.profile, file);
   method_ = method.name;
@@ -75,6 +120,9 @@ Configuration::Configuration(const MethodRegistry& registry, const Configuration
 
   OptionList run = run_options();
   std::vector<Section> parts = sections();
+  if (std::any_of(parts.begin() + 1, parts.end(), [&](const Section& part) { return part.name == method_; })) {
+    throw InputError("method " + method_, "a method cannot bear the name of a section of the configuration");
+  }
   file.apply(ConfigFile::kTopLevel, run);
   for (Section& part : parts) {
     file.apply(part.name, part.options);

@@ -1,6 +1,7 @@
 #pragma once
 /// What a run is made of: the built-in defaults, changed by a configuration file, changed by the command line.
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,7 +19,8 @@ struct ConfigurationChoice {
   std::string profile;
   std::string seed;
   std::string threads;
-  std::vector<std::string> set;  ///< "section.key=value"
+  std::vector<std::string> set;      ///< "section.key=value"
+  std::vector<std::string> plugins;  ///< shared libraries with further methods
 
   friend bool operator==(const ConfigurationChoice&, const ConfigurationChoice&) = default;
 };
@@ -42,12 +44,15 @@ class Configuration {
   };
 
   /// @throws InputError with every problem of the file, or UsageError with every problem of the rest
-  Configuration(const MethodRegistry& registry, const ConfigurationChoice& choice);
+  /// @param built_in  the methods of the house; those of plugins come after them
+  Configuration(const MethodRegistry& built_in, const ConfigurationChoice& choice);
   Configuration(const Configuration&) = delete;
   Configuration& operator=(const Configuration&) = delete;
 
   [[nodiscard]] const std::string& method() const { return method_; }
   [[nodiscard]] const std::string& profile() const { return profile_; }
+  /// Where they lie: the file's, then the command line's.
+  [[nodiscard]] const std::vector<std::filesystem::path>& plugins() const { return plugins_; }
   [[nodiscard]] const Merger& merger() const { return *merger_; }
   [[nodiscard]] const PipelineOptions& pipeline() const { return pipeline_; }
   [[nodiscard]] const FuseOptions& fuse() const { return fuse_; }
@@ -60,6 +65,7 @@ class Configuration {
   [[nodiscard]] std::vector<Section> sections();
 
  private:
+  std::vector<std::filesystem::path> plugins_;
   std::string method_;
   std::string profile_;
   RunOptions run_;

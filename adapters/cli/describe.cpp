@@ -54,6 +54,14 @@ std::string options_yaml(const OptionList& options, const std::string& indent) {
   return text;
 }
 
+std::string plugins_yaml(const std::vector<std::filesystem::path>& plugins) {
+  std::string text = plugins.empty() ? "" : "plugins:\n";
+  for (const std::filesystem::path& plugin : plugins) {
+    text += "  - " + yaml_word(plugin.string()) + "\n";
+  }
+  return text;
+}
+
 const char* type_name(const OptionField& field) {
   constexpr const char* kNames[] = {"switch", "whole number", "number", "word"};  // in the order of OptionField::Value
   return kNames[field.value.index()];
@@ -104,6 +112,7 @@ std::string configuration_yaml(Configuration& configuration, const std::function
   if (wanted(configuration.method())) {
     text += "method: " + yaml_word(configuration.method()) + "\n";
     text += "profile: " + yaml_word(configuration.profile()) + "\n";
+    text += plugins_yaml(configuration.plugins());
   }
   if (wanted("")) {
     text += options_yaml(configuration.run_options(), "");

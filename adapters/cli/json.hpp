@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json prior_json(const std::optional<PosePrior>& prior);
 /// load, prepare, propose, refine, judge, align: wall-clock time; `align` is all but `load`.
 [[nodiscard]] Json seconds_json(double load, const StepSeconds& seconds);
-/// method, profile, seed, threads, options: what the answer was found with.
+/// method, profile, plugins, seed, threads, options: what the answer was found with.
 [[nodiscard]] Json configuration_json(Configuration& configuration);
 /// Key and value of each option.
 [[nodiscard]] Json options_json(const OptionList& options);

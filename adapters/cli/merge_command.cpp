@@ -175,7 +175,7 @@ int run_merge(MergeArguments arguments, const MethodRegistry& methods, std::ostr
 
   const StopToken stop = stop_after(time_limit);
   const Interrupt interrupt(stop);
-  Watch watch(progress, trace);
+  Watch watch({&progress, &trace});
   const SerialMerge merge =
       merge_serially({maps, prior, configuration.merger(), configuration.pipeline(), configuration.fuse()},
                      {configuration.seed(), configuration.threads(), stop, &watch});

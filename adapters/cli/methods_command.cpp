@@ -2,15 +2,18 @@
 #include <memory>
 #include <ostream>
 
+#include "cli/arguments.hpp"
 #include "cli/describe.hpp"
 #include "cli/program.hpp"
 #include "cli/usage_error.hpp"
+#include "plugin/plugin_loader.hpp"
 
 namespace gridmerge::cli {
 namespace {
 
 struct MethodsArguments {
   std::string name;
+  std::vector<std::string> plugins;
   bool json = false;
   bool markdown = false;
 };
@@ -74,7 +77,8 @@ std::string shared_markdown(const MethodRegistry& methods) {
   return text;
 }
 
-int run_methods(const MethodsArguments& arguments, const MethodRegistry& methods, std::ostream& out) {
+int run_methods(const MethodsArguments& arguments, const MethodRegistry& built_in, std::ostream& out) {
+  const MethodRegistry methods = with_plugins(built_in, {arguments.plugins.begin(), arguments.plugins.end()});
   std::vector<MethodEntry> listed;
   std::string known;
   for (const MethodEntry& method : methods.entries()) {
@@ -112,6 +116,7 @@ Command methods_command(const CommandContext& context) {
   const auto arguments = std::make_shared<MethodsArguments>();
   CLI::App* command = context.app.add_subcommand("methods", "Lists the methods; tells all of one");
   command->add_option("NAME", arguments->name, "One method, with all its options");
+  add_plugin_argument(*command, arguments->plugins);
   CLI::Option* json = command->add_flag("--json", arguments->json, "For programs: a JSON array");
   command->add_flag("--markdown", arguments->markdown, "For docs: tables of all options")->excludes(json);
   const MethodRegistry& methods = context.methods;

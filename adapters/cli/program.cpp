@@ -24,9 +24,9 @@ int run_program(int argc, const char* const* argv, std::ostream& out) {
   app.footer(kFooter);
   const MethodRegistry methods = all_methods();
   const CommandContext context{app, methods};
-  const std::vector<Command> commands = {align_command(context),    merge_command(context),
-                                         evaluate_command(context), methods_command(context),
-                                         config_command(context),   check_config_command(context)};
+  const std::vector<Command> commands = {
+      align_command(context),   merge_command(context),  evaluate_command(context),    inspect_command(context),
+      methods_command(context), config_command(context), check_config_command(context)};
   std::string names;
   bool known = false;
   for (const Command& command : commands) {

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -114,6 +115,30 @@ void TraceFile::on_iteration(const IterationRecord& record) {
 void TraceFile::write() const {
   if (!file_.empty()) {
     write_whole_file(file_, text_);
+  }
+}
+
+void Watch::on_stage(const std::string& name) {
+  for (TraceSink* sink : sinks_) {
+    sink->on_stage(name);
+  }
+}
+
+void Watch::on_iteration(const IterationRecord& record) {
+  for (TraceSink* sink : sinks_) {
+    sink->on_iteration(record);
+  }
+}
+
+bool Watch::wants_views() const {
+  return std::any_of(sinks_.begin(), sinks_.end(), [](const TraceSink* sink) { return sink->wants_views(); });
+}
+
+void Watch::on_view(const View& view) {
+  for (TraceSink* sink : sinks_) {
+    if (sink->wants_views()) {
+      sink->on_view(view);
+    }
   }
 }
 

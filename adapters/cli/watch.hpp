@@ -7,6 +7,8 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "gridmerge/base/trace.hpp"
 
@@ -66,22 +68,18 @@ class TraceFile final : public TraceSink {
   std::string text_;
 };
 
-/// Tells both.
+/// Tells all of them, in that order.
 class Watch final : public TraceSink {
  public:
-  Watch(TraceSink& first, TraceSink& second) : first_(first), second_(second) {}
-  void on_stage(const std::string& name) override {
-    first_.on_stage(name);
-    second_.on_stage(name);
-  }
-  void on_iteration(const IterationRecord& record) override {
-    first_.on_iteration(record);
-    second_.on_iteration(record);
-  }
+  /// @param sinks  borrowed, not null
+  explicit Watch(std::vector<TraceSink*> sinks) : sinks_(std::move(sinks)) {}
+  void on_stage(const std::string& name) override;
+  void on_iteration(const IterationRecord& record) override;
+  [[nodiscard]] bool wants_views() const override;
+  void on_view(const View& view) override;
 
  private:
-  TraceSink& first_;
-  TraceSink& second_;
+  std::vector<TraceSink*> sinks_;
 };
 
 }  // namespace gridmerge::cli

@@ -66,6 +66,28 @@ std::optional<std::string> ConfigFile::value(const std::string& key) {
   return std::nullopt;
 }
 
+std::vector<std::string> ConfigFile::values(const std::string& key) {
+  remember(known_keys_[kTopLevel], key);
+  std::vector<std::string> texts;
+  for (const YamlEntry& entry : entries_) {
+    if (entry.key != key) {
+      continue;
+    }
+    const bool all_single = std::all_of(entry.children.begin(), entry.children.end(),
+                                        [](const YamlEntry& child) { return child.kind == Kind::kScalar; });
+    if (entry.kind == Kind::kScalar) {
+      texts.push_back(entry.text);
+    } else if (entry.kind == Kind::kSequence && all_single) {
+      for (const YamlEntry& child : entry.children) {
+        texts.push_back(child.text);
+      }
+    } else {
+      problems_.add(entry.line, "'" + key + "' must have a single value, or a list of them");
+    }
+  }
+  return texts;
+}
+
 void ConfigFile::apply(const std::string& section, OptionList& options) {
   std::vector<std::string>& known = known_keys_[section];
   for (const OptionField& field : options.fields()) {

@@ -35,6 +35,9 @@ class ConfigFile {
   /// The text at a top-level key; none if it is not given.
   [[nodiscard]] std::optional<std::string> value(const std::string& key);
 
+  /// The texts of a top-level sequence, or of a single value; none if it is not given.
+  [[nodiscard]] std::vector<std::string> values(const std::string& key);
+
   /// Sets every option that the section gives; the others keep their values, and so does one with a problem.
   /// A section of several lists is applied once for each. kTopLevel applies the keys outside of all sections.
   void apply(const std::string& section, OptionList& options);

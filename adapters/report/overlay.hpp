@@ -1,30 +1,13 @@
 #pragma once
 /// A picture that shows at a glance whether a merge fits.
-#include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "gridmerge/fuse/resample.hpp"
 #include "map_server/raster_image.hpp"
+#include "report/colours.hpp"
 
 namespace gridmerge {
-
-struct Colour {
-  std::uint8_t red = 0;
-  std::uint8_t green = 0;
-  std::uint8_t blue = 0;
-  friend constexpr bool operator==(Colour, Colour) = default;
-};
-
-inline constexpr Colour kUnknownColour{0xDA, 0xDC, 0xDE};
-inline constexpr Colour kFreeOfSeveralColour{0xFF, 0xFF, 0xFF};
-inline constexpr Colour kAgreementColour{0x20, 0x20, 0x20};  ///< a wall of several maps
-inline constexpr Colour kConflictColour{0xDC, 0x00, 0x32};   ///< a wall of one map in another map's free space
-
-/// The palette holds six maps, then begins again.
-[[nodiscard]] Colour wall_colour(std::size_t map);  ///< a wall of this map alone
-[[nodiscard]] Colour free_colour(std::size_t map);  ///< free space of this map alone
 
 struct OverlayMap {
   PlacedMap placed;

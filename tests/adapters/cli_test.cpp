@@ -125,6 +125,8 @@ class Program : public ::testing::Test {
 using AlignCommand = Program;
 using MergeCommand = Program;
 using EvaluateCommand = Program;
+using InspectCommand = Program;
+using PluginArgument = Program;
 using MethodsCommand = Program;
 using ConfigCommand = Program;
 using CommandLine = Program;
@@ -386,6 +388,120 @@ TEST_F(EvaluateCommand, TellsTheFiguresOfOnePose) {
   EXPECT_EQ(run("evaluate a.yaml unknown.yaml --pose=0,0,0 --json").answer().at("status"), "declined");
 }
 
+TEST_F(InspectCommand, WritesThePicturesAndAPageThatShowsThem) {
+  const Ended result = run("inspect genetic a.yaml b.yaml -o deep/out --seed 3 --trace trace.csv");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out,
+              AllOf(StartsWith("Merged: "), HasSubstr("Written to deep/out\n  index.html\n  overlay.png: ")));
+  const std::string page = content_of(folder / "deep/out/index.html");
+  EXPECT_THAT(page, AllOf(StartsWith("<!DOCTYPE html>"), HasSubstr("genetic, profile default"), HasSubstr("a.yaml"),
+                          HasSubstr("Merged: "), HasSubstr("m of wall agree"), HasSubstr("Seed 3")));
+  const std::vector<std::string> names = names_in(folder / "deep/out");
+  EXPECT_THAT(names, AllOf(Contains("overlay.png"), Contains("scores.png"), Contains("index.html")));
+  for (const std::string& name : names) {
+    if (name != "index.html") {
+      EXPECT_THAT(name, EndsWith(".png"));
+      EXPECT_THAT(content_of(folder / "deep/out" / name), StartsWith("\x89PNG"));
+      EXPECT_THAT(page, HasSubstr("<img src=\"" + name + "\""));
+    }
+  }
+  EXPECT_TRUE(fs::exists(folder / "trace.csv"));
+  fs::remove(folder / "trace.csv");
+  fs::remove_all(folder / "deep");
+}
+
+TEST_F(InspectCommand, FindsWhatAlignFinds) {
+  const std::string options =
+      " a.yaml b.yaml --seed 5 --profile paper --prior=" + std::to_string(pair.target_from_source.x_m) + "," +
+      std::to_string(pair.target_from_source.y_m) + "," + std::to_string(pair.target_from_source.theta_rad) + ",2,20";
+  const auto without_time = [](const std::string& text) { return text.substr(0, text.find("\nTime\n")); };
+  EXPECT_EQ(without_time(run("inspect genetic -o out" + options).out), without_time(run("align" + options).out));
+  fs::remove_all(folder / "out");
+}
+
+TEST_F(InspectCommand, WritesThePicturesWhateverTheVerdict) {
+  EXPECT_EQ(run("inspect genetic a.yaml stranger.yaml -o out").status, 0);
+  EXPECT_THAT(names_in(folder / "out"), Contains("overlay.png"));
+  EXPECT_EQ(run("inspect genetic a.yaml unknown.yaml -o nothing").status, 0) << "no pose, no overlay";
+  EXPECT_THAT(names_in(folder / "nothing"), ElementsAre("index.html"));
+  EXPECT_THAT(content_of(folder / "nothing/index.html"), HasSubstr("Declined: "));
+  fs::remove_all(folder / "out");
+  fs::remove_all(folder / "nothing");
+}
+
+TEST_F(InspectCommand, CtrlCLeavesNothingBehind) {
+  const Ended result = interrupted("inspect genetic a.yaml b.yaml -o out");
+  EXPECT_EQ(result.status, 3) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("no pictures are written"));
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST_F(InspectCommand, RefusesWhatItCannotDo) {
+  EXPECT_THAT(refusal(2, "inspect magic a.yaml b.yaml -o out"), HasSubstr("magic: is not known; known: genetic"));
+  EXPECT_THAT(refusal(2, "inspect genetic a.yaml b.yaml"), HasSubstr("--output"));
+  EXPECT_THAT(refusal(1, "inspect genetic nowhere.yaml b.yaml -o a.yaml"), HasSubstr("a.yaml: is not a folder"));
+  EXPECT_THAT(refusal(1, "inspect genetic nowhere.yaml b.yaml -o /proc/gridmerge"), HasSubstr("/proc/gridmerge"));
+  EXPECT_THAT(refusal(1, "inspect genetic nowhere.yaml b.yaml -o new/out"), HasSubstr("nowhere.yaml"));
+}
+
+TEST_F(PluginArgument, AddsAMethodToEveryCommandThatKnowsMethods) {
+  const std::string plugin = " --plugin '" GRIDMERGE_CENTROID "'";
+  const json methods = run("methods --json" + plugin).answer();
+  EXPECT_EQ(methods.size(), all_methods().entries().size() + 1);
+  EXPECT_EQ(methods.back().at("name"), "centroid");
+  EXPECT_THAT(run("methods centroid" + plugin).out, HasSubstr("climb: true"));
+
+  const Ended aligned = run("align a.yaml b.yaml --json --method centroid --set centroid.climb=true" + plugin);
+  EXPECT_EQ(aligned.status, 0) << aligned.err;
+  EXPECT_EQ(aligned.answer().at("method"), "centroid");
+  EXPECT_EQ(aligned.answer().at("plugins").size(), 1U);
+  EXPECT_EQ(aligned.answer().at("options").at("centroid").at("climb"), true);
+  EXPECT_LT(pose_error(pair, transform_of(aligned.answer())).distance_m, 0.1);
+
+  EXPECT_EQ(run("merge a.yaml b.yaml -o out --method centroid" + plugin).status, 0);
+  EXPECT_EQ(run("inspect centroid a.yaml b.yaml -o out" + plugin).status, 0);
+  EXPECT_THAT(names_in(folder / "out"), AllOf(Contains("merged.yaml"), Contains("target_walls.png")));
+  fs::remove_all(folder / "out");
+  EXPECT_EQ(run("evaluate a.yaml b.yaml --pose=2,2,2" + plugin).status, 3);
+
+  write(folder / "mine.yaml", "method: centroid\ncentroid: {climb: false}\n");
+  EXPECT_EQ(run("check-config mine.yaml" + plugin).out, "ok\n");
+  EXPECT_THAT(refusal(1, "check-config mine.yaml"), HasSubstr("mine.yaml:1: method = 'centroid' is not known"));
+  fs::remove(folder / "mine.yaml");
+}
+
+TEST_F(PluginArgument, MayStandInTheConfigurationFileRelativeToIt) {
+  fs::create_directories(folder / "deep");
+  fs::create_symlink(GRIDMERGE_CENTROID, folder / "deep/mine.so");
+  for (const std::string plugins : {"plugins: [mine.so]", "plugins: mine.so", "plugins:\n  - ./mine.so\n  - mine.so"}) {
+    write(folder / "deep/mine.yaml", plugins + "\nmethod: centroid\n");
+    const Ended result = run("config --config deep/mine.yaml");
+    ASSERT_EQ(result.status, 0) << plugins << result.err;
+    EXPECT_THAT(result.out,
+                AllOf(HasSubstr("method: centroid\n"), HasSubstr("plugins:\n  - "), HasSubstr("climb: true")));
+    write(folder / "whole.yaml", result.out);
+    EXPECT_EQ(run("config --config whole.yaml").out, result.out) << "it reads back the same";
+    EXPECT_EQ(run("config --config whole.yaml --plugin deep/mine.so").out, result.out) << "named twice, taken once";
+  }
+  EXPECT_THAT(refusal(1, "config --config deep/mine.yaml --set centroid.magic=1 --plugin nowhere.so"),
+              HasSubstr("nowhere.so: does not exist"));
+  write(folder / "deep/mine.yaml", "plugins: [nowhere.so]\n");
+  EXPECT_THAT(refusal(1, "check-config deep/mine.yaml"),
+              AllOf(HasSubstr("deep/mine.yaml: plugins: "), HasSubstr("deep/nowhere.so: does not exist")));
+  write(folder / "deep/mine.yaml", "plugins: {a: b}\n");
+  EXPECT_THAT(refusal(1, "check-config deep/mine.yaml"), HasSubstr("'plugins' must have a single value, or a list"));
+  fs::remove(folder / "whole.yaml");
+  fs::remove_all(folder / "deep");
+}
+
+TEST_F(PluginArgument, RefusesWhatIsNoPlugin) {
+  EXPECT_THAT(refusal(1, "methods --plugin nowhere.so"), HasSubstr("nowhere.so: does not exist"));
+  EXPECT_THAT(refusal(1, "align a.yaml b.yaml --plugin a.yaml"),
+              HasSubstr("a.yaml: is not a shared library that can be loaded: "));
+  EXPECT_THAT(refusal(2, "align a.yaml b.yaml --plugin"), HasSubstr("--plugin"));
+  EXPECT_THAT(refusal(2, "config --write written --plugin '" GRIDMERGE_CENTROID "'"), HasSubstr("stands alone"));
+}
+
 TEST_F(MethodsCommand, ListsEveryMethodWithItsOptions) {
   const json all = run("methods --json").answer();
   const MethodRegistry registry = all_methods();
@@ -456,12 +572,13 @@ TEST_F(ConfigCommand, CheckConfigTellsEveryProblemWithItsLine) {
         "verdict: {min_lead: 0.1, min_lead: 0.2}\n"
         "judge: {}\n");
   const std::string told = refusal(1, "check-config bad.yaml");
-  EXPECT_THAT(told, AllOf(HasSubstr("bad.yaml:2: threads = 'many' is not a whole number"),
-                          HasSubstr("bad.yaml:4: population = 3 poses is out of range: 4 .. 100000"),
-                          HasSubstr("bad.yaml:5: unknown key 'populaton'; known keys: population, "),
-                          HasSubstr("bad.yaml:6: repeated key 'min_lead'"),
-                          HasSubstr("bad.yaml:7: unknown key 'judge'; known keys: method, profile, seed, threads, "
-                                    "genetic, pipeline, prepare, refine, evaluator, verdict, fuse")));
+  EXPECT_THAT(told,
+              AllOf(HasSubstr("bad.yaml:2: threads = 'many' is not a whole number"),
+                    HasSubstr("bad.yaml:4: population = 3 poses is out of range: 4 .. 100000"),
+                    HasSubstr("bad.yaml:5: unknown key 'populaton'; known keys: population, "),
+                    HasSubstr("bad.yaml:6: repeated key 'min_lead'"),
+                    HasSubstr("bad.yaml:7: unknown key 'judge'; known keys: plugins, method, profile, seed, threads, "
+                              "genetic, pipeline, prepare, refine, evaluator, verdict, fuse")));
   write(folder / "bad.yaml", "method: magic\n");
   EXPECT_THAT(refusal(1, "check-config bad.yaml"),
               HasSubstr("bad.yaml:1: method = 'magic' is not known; known: genetic"));

@@ -186,5 +186,22 @@ TEST(YamlWord, ReadsBackAsTheSameText) {
   }
 }
 
+TEST(ConfigFile, GivesAListOrASingleValueAsTexts) {
+  ConfigFile file = ConfigFile::parse("one: a.so\nmany: [b.so, 'c d.so']\nnone: []\n", "f.yaml");
+  EXPECT_EQ(file.values("one"), std::vector<std::string>{"a.so"});
+  EXPECT_EQ(file.values("many"), (std::vector<std::string>{"b.so", "c d.so"}));
+  EXPECT_TRUE(file.values("none").empty());
+  EXPECT_TRUE(file.values("not given").empty());
+  EXPECT_NO_THROW(file.check());
+}
+
+TEST(ConfigFile, RefusesAListOfAnythingButTexts) {
+  for (const std::string text : {"list: {a: b}\n", "list: [[a]]\n", "list:\n"}) {
+    ConfigFile file = ConfigFile::parse(text, "f.yaml");
+    EXPECT_TRUE(file.values("list").empty());
+    EXPECT_THROW(file.check(), InputError) << text;
+  }
+}
+
 }  // namespace
 }  // namespace gridmerge

@@ -157,6 +157,7 @@ Alignment align_prepared(const AlignRequest& request, const Merger& method, cons
     const std::vector<Candidate> others = rivals(request, context);
     candidates.insert(candidates.end(), others.begin(), others.end());
     proposal.surveyed = !context.stop.stop_requested();
+    alignment.stopped = alignment.stopped || !proposal.surveyed;
   }
   alignment.seconds.propose = watch.lap();
 
