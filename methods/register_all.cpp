@@ -7,6 +7,8 @@
 #include "methods/hough_spectrum/paper_hough_spectrum.hpp"
 #include "methods/radon_voronoi/paper_radon_voronoi.hpp"
 #include "methods/radon_voronoi/radon_voronoi.hpp"
+#include "methods/som/paper_som.hpp"
+#include "methods/som/som.hpp"
 
 namespace gridmerge {
 namespace {
@@ -51,6 +53,14 @@ MethodRegistry all_methods() {
                "default", "several rotations by directed Radon transforms, votes of edges and vertices, climb"),
            profile<PaperRadonVoronoiOptions, PaperRadonVoronoiMerger>(
                "paper", "as published: one rotation, thinning by morphology, edge matrices, no climb")}});
+  registry.add(
+      {.name = "som",
+       .summary = "clusters learnt by a self-organising map, turned by their normals, moved by their votes",
+       .paper = "S. Saeedi, L. Paull, M. Trentini, H. Li: Neural network-based multiple robot simultaneous "
+                "localization and mapping, IEEE Trans. Neural Networks 22(12), 2011",
+       .profiles = {profile<SomOptions, SomMerger>("default", "anywhere, any angle; uses a prior where there is one"),
+                    profile<PaperSomOptions, PaperSomMerger>(
+                        "paper", "as published: on-line learning, matched normals, closest points")}});
   registry.add(
       {.name = "correlative",
        .summary = "every pose of a lattice is scored, and the best one proved to be the best",

@@ -16,8 +16,6 @@
 
 namespace gridmerge {
 
-void PrintTo(const KnownPair& pair, std::ostream* out) { *out << pair.name; }
-
 namespace {
 
 using testing::IsEmpty;

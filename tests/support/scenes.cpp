@@ -1,11 +1,14 @@
 #include "support/scenes.hpp"
 
 #include <algorithm>
+#include <ostream>
 #include <stdexcept>
 
 #include "gridmerge/base/random.hpp"
 
 namespace gridmerge {
+
+void PrintTo(const KnownPair& pair, std::ostream* out) { *out << pair.name; }
 
 std::vector<KnownPair> known_pairs() {
   return {

@@ -1,5 +1,6 @@
 #pragma once
 /// Pairs of maps with known truth, by name: what the tests of many units share.
+#include <iosfwd>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,9 @@ struct KnownPair {
   bool overlaps = true;    ///< false: the only right answer is not to merge
   bool ambiguous = false;  ///< nobody could tell from the maps where the source lies
 };
+
+/// How a failing test names it.
+void PrintTo(const KnownPair& pair, std::ostream* out);
 
 /// All of them. "flat" is the quickest: two maps of about 200 x 200 cells.
 [[nodiscard]] std::vector<KnownPair> known_pairs();

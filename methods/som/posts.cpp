@@ -1,0 +1,118 @@
+#include "methods/som/posts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace gridmerge::som {
+namespace {
+
+/// Sets that are united by and by; each is named by its smallest member.
+class Groups {
+ public:
+  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
+
+  [[nodiscard]] std::uint32_t name_of(std::uint32_t i) {
+    while (parent_[i] != i) {
+      parent_[i] = parent_[parent_[i]];
+      i = parent_[i];
+    }
+    return i;
+  }
+  void unite(std::uint32_t a, std::uint32_t b) {
+    a = name_of(a);
+    b = name_of(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+/// For each sample, the name of the group of samples whose cells of level 1 touch.
+std::vector<std::uint32_t> touching(const std::vector<WallSample>& samples, const MapLevel& level) {
+  constexpr std::uint32_t kNone = 0xffffffffU;
+  const auto cell = [&](float v, double low) {
+    return static_cast<int>((static_cast<double>(v) - low) / level.resolution_m);
+  };
+  std::vector<std::uint32_t> sample_in(level.state.size(), kNone);
+  for (std::uint32_t i = 0; i < samples.size(); ++i) {
+    const Point2f at = samples[i].at;
+    sample_in[level.offset(cell(at.x_m, level.lower_left.x_m), cell(at.y_m, level.lower_left.y_m))] = i;
+  }
+  Groups groups(samples.size());
+  for (std::uint32_t i = 0; i < samples.size(); ++i) {
+    const int column = cell(samples[i].at.x_m, level.lower_left.x_m);
+    const int row = cell(samples[i].at.y_m, level.lower_left.y_m);
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        if (level.contains(column + dx, row + dy) && sample_in[level.offset(column + dx, row + dy)] != kNone) {
+          groups.unite(i, sample_in[level.offset(column + dx, row + dy)]);
+        }
+      }
+    }
+  }
+  std::vector<std::uint32_t> names(samples.size());
+  for (std::uint32_t i = 0; i < samples.size(); ++i) {
+    names[i] = groups.name_of(i);
+  }
+  return names;
+}
+
+struct Extent {
+  Point2f low{1e9F, 1e9F};
+  Point2f high{-1e9F, -1e9F};
+
+  void take_in(Point2f p) {
+    low = {std::min(low.x_m, p.x_m), std::min(low.y_m, p.y_m)};
+    high = {std::max(high.x_m, p.x_m), std::max(high.y_m, p.y_m)};
+  }
+  [[nodiscard]] double width() const { return static_cast<double>(std::max(high.x_m - low.x_m, high.y_m - low.y_m)); }
+};
+
+}  // namespace
+
+Posts posts_of(const PreparedMap& map, double widest_m) {
+  const std::vector<WallSample> samples = wall_samples(map);
+  if (samples.empty()) {
+    return {};
+  }
+  const std::vector<std::uint32_t> names = touching(samples, map.level(1));
+  std::vector<Extent> extent(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    extent[names[i]].take_in(samples[i].at);
+  }
+  std::vector<WallSample> small;
+  std::vector<std::uint32_t> owner;
+  float all_m = 0;
+  float small_m = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    all_m += samples[i].weight;
+    if (extent[names[i]].width() <= widest_m) {
+      small.push_back(samples[i]);
+      owner.push_back(names[i]);
+      small_m += samples[i].weight;
+    }
+  }
+  Posts posts{.points = summarised(small, owner, samples.size()).points, .share = static_cast<double>(small_m / all_m)};
+  for (ClusterPoint& one : posts.points) {
+    one.normal = {};
+    one.sided = false;
+  }
+  std::stable_sort(posts.points.begin(), posts.points.end(),
+                   [](const ClusterPoint& a, const ClusterPoint& b) { return a.weight > b.weight; });
+  return posts;
+}
+
+std::vector<double> even_turns(double step_rad, const std::optional<PoseWindow>& window) {
+  const double centre = window ? window->centre.theta_rad : 0;
+  const double reach = window ? std::min(window->angle_rad, kPi) : kPi;
+  const int each_way = static_cast<int>(reach / step_rad);
+  std::vector<double> turns;
+  for (int k = -each_way; k <= each_way; ++k) {
+    turns.push_back(wrap_angle(centre + k * step_rad));
+  }
+  return turns;
+}
+
+}  // namespace gridmerge::som
