@@ -1,12 +1,16 @@
 #include "methods/register_all.hpp"
 
 #include "methods/correlative/correlative.hpp"
+#include "methods/features/features.hpp"
+#include "methods/features/paper_features.hpp"
 #include "methods/genetic/genetic.hpp"
 #include "methods/genetic/paper_genetic.hpp"
 #include "methods/hough_spectrum/hough_spectrum.hpp"
 #include "methods/hough_spectrum/paper_hough_spectrum.hpp"
 #include "methods/radon_voronoi/paper_radon_voronoi.hpp"
 #include "methods/radon_voronoi/radon_voronoi.hpp"
+#include "methods/random_walk/paper_random_walk.hpp"
+#include "methods/random_walk/random_walk.hpp"
 #include "methods/som/paper_som.hpp"
 #include "methods/som/som.hpp"
 
@@ -42,6 +46,15 @@ MethodRegistry all_methods() {
                     profile<PaperHoughSpectrumOptions, PaperHoughSpectrumMerger>(
                         "paper", "as published: one best translation a rotation, ranked by the acceptance index")}});
   registry.add(
+      {.name = "random_walk",
+       .summary = "adaptive random walks over the dissimilarity of two maps, coarse to fine",
+       .paper = "S. Carpin, A. Birk, V. Jucikas: On map merging, Robotics and Autonomous Systems 53, 2005; A. Birk, "
+                "S. Carpin: Merging occupancy grid maps from multiple robots, Proceedings of the IEEE 94(7), 2006",
+       .profiles = {profile<RandomWalkOptions, RandomWalkMerger>(
+                        "default", "many walks over a pyramid, distances truncated; at its best with a prior"),
+                    profile<PaperRandomWalkOptions, PaperRandomWalkMerger>(
+                        "paper", "as published: one walk, Manhattan distances of all known cells")}});
+  registry.add(
       {.name = "radon_voronoi",
        .summary = "rotation from Radon transforms, translation from the edges of Voronoi diagrams",
        .paper =
@@ -70,6 +83,14 @@ MethodRegistry all_methods() {
                         "default", "walls on walls both ways, walls in free space cost; the best poses climb on"),
                     profile<PaperCorrelativeOptions, CorrelativeMerger>(
                         "paper", "Olson 2009: the source's walls in the target's smooth field, the lattice's best")}});
+  registry.add({.name = "features",
+                .summary = "keypoints matched and a rigid pose by RANSAC: what most do today, our baseline inside",
+                .paper = "J. Horner: Map-merging for multi-robot system, Bachelor's thesis, Charles University in "
+                         "Prague, 2016; M. A. Fischler, R. C. Bolles: Random sample consensus, 1981",
+                .profiles = {profile<FeaturesOptions, FeaturesMerger>(
+                                 "default", "AKAZE and ORB, many hypotheses; each climbs a little"),
+                             profile<PaperFeaturesOptions, PaperFeaturesMerger>(
+                                 "paper", "ORB, ratio test and one RANSAC, as the merging nodes for ROS do it")}});
   return registry;
 }
 
