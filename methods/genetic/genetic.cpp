@@ -64,8 +64,8 @@ void show(const std::vector<ScoredPose>& first, const std::vector<ScoredPose>& l
   trace.on_view({"population", "The population of poses; the fittest of the last generation drawn",
                  MapView{.map = MapView::Map::kBoth,
                          .local_target_from_source = last.front().pose,
-                         .shapes = {centres("source's centre, first generation", first),
-                                    centres("last generation, niche by niche", last)}}});
+                         .shapes = {centres("source's centre, last generation, niche by niche", last),
+                                    centres("first generation", first)}}});
   trace.on_view(
       {"fitness", "Fitness, generation by generation",
        CurvesView{

@@ -359,7 +359,7 @@ View match_view(const Diagram& target, const Diagram& source, const Pose2& local
   return {"matched_vertices", "Both Voronoi diagrams at the best pose, with the vertices that meet",
           MapView{.map = MapView::Map::kBoth,
                   .local_target_from_source = local_target_from_source,
-                  .shapes = {std::move(of_target), std::move(of_source), std::move(matches)}}};
+                  .shapes = {std::move(matches), std::move(of_target), std::move(of_source)}}};
 }
 
 }  // namespace gridmerge::voronoi

@@ -711,7 +711,7 @@ View diagram_view(const Diagram& diagram, MapView::Map map) {
   return {"voronoi_" + which, "Voronoi diagram of the " + which + "'s free space, its vertices and edges",
           MapView{.map = map,
                   .local_target_from_source = {},
-                  .shapes = {std::move(edges), std::move(masked), std::move(vertices)}}};
+                  .shapes = {std::move(vertices), std::move(masked), std::move(edges)}}};
 }
 
 }  // namespace gridmerge::voronoi

@@ -108,11 +108,10 @@ View matches_view(std::span<const ClusterPoint> target, std::span<const ClusterP
   }
   return {.name = "som_matches",
           .title = std::to_string(match.pairs.size()) + " clusters of the source matched with the target's",
-          .content =
-              MapView{.map = MapView::Map::kBoth,
-                      .local_target_from_source = local_target_from_source,
-                      .shapes = {points_of(target, {}, "target's neurons"),
-                                 points_of(source, local_target_from_source, "source's neurons"), std::move(joined)}}};
+          .content = MapView{.map = MapView::Map::kBoth,
+                             .local_target_from_source = local_target_from_source,
+                             .shapes = {std::move(joined), points_of(target, {}, "target's neurons"),
+                                        points_of(source, local_target_from_source, "source's neurons")}}};
 }
 
 }  // namespace gridmerge::som
