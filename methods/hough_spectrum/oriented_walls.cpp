@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "gridmerge/grid/wall_cells.hpp"
+
 namespace gridmerge::hough {
 namespace {
 
@@ -47,18 +49,7 @@ struct CellSum {
 }  // namespace
 
 std::vector<OrientedWall> oriented_walls(const PreparedMap& map, const MapLevel& level) {
-  std::vector<std::int32_t> slot(level.state.size(), -1);
-  std::vector<CellSum> sums;
-  for (const WallPoint& wall : map.walls()) {
-    const int column = static_cast<int>((wall.at.x_m - level.lower_left.x_m) / level.resolution_m);
-    const int row = static_cast<int>((wall.at.y_m - level.lower_left.y_m) / level.resolution_m);
-    std::int32_t& index = slot[level.offset(column, row)];
-    if (index < 0) {
-      index = static_cast<std::int32_t>(sums.size());
-      sums.emplace_back();
-    }
-    sums[static_cast<std::size_t>(index)].add(wall);
-  }
+  const std::vector<CellSum> sums = summed_by_cell<CellSum>(map, level);
   const float cells_across = static_cast<float>(level.resolution_m / map.resolution_m());
   std::vector<OrientedWall> walls(sums.size());
   std::transform(sums.begin(), sums.end(), walls.begin(), [&](const CellSum& sum) { return sum.wall(cells_across); });

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "gridmerge/base/fourier.hpp"
+#include "gridmerge/grid/wall_cells.hpp"
 
 namespace gridmerge::radon {
 namespace {
@@ -18,6 +19,17 @@ struct PieceSum {
   float cos_2_normal = 0;  ///< a surface normal has either sign: twice its angle has not
   float sin_2_normal = 0;
   float count = 0;
+
+  void add(const WallPoint& wall) {
+    const Point2f n = wall.surface_normal;
+    at.x_m += wall.at.x_m;
+    at.y_m += wall.at.y_m;
+    free_normal.x_m += wall.free_normal.x_m;
+    free_normal.y_m += wall.free_normal.y_m;
+    cos_2_normal += n.x_m * n.x_m - n.y_m * n.y_m;
+    sin_2_normal += 2 * n.x_m * n.y_m;
+    count += 1;
+  }
 };
 
 WallPiece piece_of(const PieceSum& sum, float cells_across) {
@@ -136,28 +148,9 @@ double sigma_of(double left, double top, double right, double base, double step_
 }  // namespace
 
 std::vector<WallPiece> wall_pieces(const PreparedMap& map, const MapLevel& level) {
-  std::vector<std::int32_t> slot(level.state.size(), -1);
-  std::vector<PieceSum> sums;
-  for (const WallPoint& wall : map.walls()) {
-    const int column = static_cast<int>((wall.at.x_m - level.lower_left.x_m) / level.resolution_m);
-    const int row = static_cast<int>((wall.at.y_m - level.lower_left.y_m) / level.resolution_m);
-    std::int32_t& index = slot[level.offset(column, row)];
-    if (index < 0) {
-      index = static_cast<std::int32_t>(sums.size());
-      sums.emplace_back();
-    }
-    PieceSum& sum = sums[static_cast<std::size_t>(index)];
-    const Point2f n = wall.surface_normal;
-    sum.at.x_m += wall.at.x_m;
-    sum.at.y_m += wall.at.y_m;
-    sum.free_normal.x_m += wall.free_normal.x_m;
-    sum.free_normal.y_m += wall.free_normal.y_m;
-    sum.cos_2_normal += n.x_m * n.x_m - n.y_m * n.y_m;
-    sum.sin_2_normal += 2 * n.x_m * n.y_m;
-    sum.count += 1;
-  }
   const float cells_across = static_cast<float>(level.resolution_m / map.resolution_m());
   std::vector<WallPiece> pieces;
+  const std::vector<PieceSum> sums = summed_by_cell<PieceSum>(map, level);
   pieces.reserve(sums.size());
   for (const PieceSum& sum : sums) {
     pieces.push_back(piece_of(sum, cells_across));

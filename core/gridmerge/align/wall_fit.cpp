@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gridmerge/grid/wall_cells.hpp"
+
 namespace gridmerge {
 namespace {
 
@@ -71,24 +73,15 @@ std::vector<ThinnedWall> thinned_walls(const PreparedMap& map, const MapLevel& l
     float x = 0;
     float y = 0;
     float n = 0;
-  };
-  std::vector<std::int32_t> slot(level.state.size(), -1);
-  std::vector<Sum> sums;
-  for (const WallPoint& wall : map.walls()) {
-    const int column = static_cast<int>((wall.at.x_m - level.lower_left.x_m) / level.resolution_m);
-    const int row = static_cast<int>((wall.at.y_m - level.lower_left.y_m) / level.resolution_m);
-    std::int32_t& index = slot[level.offset(column, row)];
-    if (index < 0) {
-      index = static_cast<std::int32_t>(sums.size());
-      sums.emplace_back();
+    void add(const WallPoint& wall) {
+      x += wall.at.x_m;
+      y += wall.at.y_m;
+      n += 1;
     }
-    Sum& sum = sums[static_cast<std::size_t>(index)];
-    sum.x += wall.at.x_m;
-    sum.y += wall.at.y_m;
-    sum.n += 1;
-  }
+  };
   const float across = static_cast<float>(level.resolution_m / map.resolution_m());
   std::vector<ThinnedWall> points;
+  const std::vector<Sum> sums = summed_by_cell<Sum>(map, level);
   points.reserve(sums.size());
   for (const Sum& sum : sums) {
     points.push_back({{sum.x / sum.n, sum.y / sum.n}, std::min(1.0F, sum.n / across)});

@@ -50,7 +50,7 @@ struct MapView {
   enum class Map { kTarget, kSource, kBoth };
   Map map = Map::kTarget;
   Pose2 local_target_from_source;  ///< where the source is drawn, if both are
-  std::vector<Shape> shapes;  ///< the first on top
+  std::vector<Shape> shapes;       ///< the first on top
 };
 
 struct View {

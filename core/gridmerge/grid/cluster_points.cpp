@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "gridmerge/base/parallel.hpp"
+#include "gridmerge/grid/wall_cells.hpp"
 
 namespace gridmerge {
 namespace {
@@ -285,31 +286,22 @@ std::vector<WallSample> wall_samples(const PreparedMap& map) {
     float y = 0;
     Point2f free;
     Point2f surface;
+    void add(const WallPoint& wall) {
+      n += 1;
+      x += wall.at.x_m;
+      y += wall.at.y_m;
+      free = {free.x_m + wall.free_normal.x_m, free.y_m + wall.free_normal.y_m};
+      const float sign = dot(wall.surface_normal, surface) < 0 ? -1.0F : 1.0F;
+      surface = {surface.x_m + sign * wall.surface_normal.x_m, surface.y_m + sign * wall.surface_normal.y_m};
+    }
   };
   if (map.walls().empty()) {
     return {};
   }
   const MapLevel& level = map.level(1);
-  std::vector<std::int32_t> slot(level.state.size(), -1);
-  std::vector<Sum> sums;
-  for (const WallPoint& wall : map.walls()) {
-    const int column = static_cast<int>((wall.at.x_m - level.lower_left.x_m) / level.resolution_m);
-    const int row = static_cast<int>((wall.at.y_m - level.lower_left.y_m) / level.resolution_m);
-    std::int32_t& index = slot[level.offset(column, row)];
-    if (index < 0) {
-      index = static_cast<std::int32_t>(sums.size());
-      sums.emplace_back();
-    }
-    Sum& sum = sums[static_cast<std::size_t>(index)];
-    sum.n += 1;
-    sum.x += wall.at.x_m;
-    sum.y += wall.at.y_m;
-    sum.free = {sum.free.x_m + wall.free_normal.x_m, sum.free.y_m + wall.free_normal.y_m};
-    const float sign = dot(wall.surface_normal, sum.surface) < 0 ? -1.0F : 1.0F;
-    sum.surface = {sum.surface.x_m + sign * wall.surface_normal.x_m, sum.surface.y_m + sign * wall.surface_normal.y_m};
-  }
   const float across = static_cast<float>(level.resolution_m / map.resolution_m());
   std::vector<WallSample> samples;
+  const std::vector<Sum> sums = summed_by_cell<Sum>(map, level);
   samples.reserve(sums.size());
   for (const Sum& sum : sums) {
     const bool sided = std::hypot(sum.free.x_m, sum.free.y_m) > 0.4F * sum.n;
