@@ -15,7 +15,6 @@
 namespace gridmerge {
 namespace {
 
-using som::ClusterFit;
 using som::ClusterMatcher;
 using som::Rotation;
 using som::VoteSurface;
@@ -82,7 +81,7 @@ class Search {
         maps_(std::move(maps)),
         target_(maps_.target),
         source_(maps_.source),
-        fit_(request.target, request.source, target_.points, source_.points, kClusterLevel, options.fit),
+        fit_(request.target, request.source, kClusterLevel, options.fit, as_walls(target_), as_walls(source_)),
         matcher_(target_.points, std::max(options.match_reach_m, 1.5 * target_.spacing_m), radians(options.facing_deg),
                  options.along_share) {}
   Search(const Search&) = delete;  // its parts borrow from each other
@@ -225,7 +224,7 @@ class Search {
   LearntMaps maps_;
   const ClusterPoints& target_;
   const ClusterPoints& source_;
-  ClusterFit fit_;
+  WallFit fit_;  ///< on clusters alone
   ClusterMatcher matcher_;
   som::RotationSpectrum spectrum_;
   std::vector<Rotation> turns_;  ///< best first

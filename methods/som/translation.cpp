@@ -99,24 +99,6 @@ void blur(VoteSurface& surface) {
   }
 }
 
-float table_sum(const FitTable& table, std::span<const ClusterPoint> clusters, const Pose2& table_from_clusters) {
-  const MapLevel& level = *table.level;
-  const auto scale = static_cast<float>(1 / level.resolution_m);
-  const Rotor turn(table_from_clusters.theta_rad);
-  const auto x0 = static_cast<float>(table_from_clusters.x_m - level.lower_left.x_m);
-  const auto y0 = static_cast<float>(table_from_clusters.y_m - level.lower_left.y_m);
-  float sum = 0;
-  for (const ClusterPoint& one : clusters) {
-    const Point2f p = turn(one.at);
-    const float x = (p.x_m + x0) * scale;
-    const float y = (p.y_m + y0) * scale;
-    if (x >= 0 && y >= 0 && x < static_cast<float>(level.width) && y < static_cast<float>(level.height)) {
-      sum += one.weight * static_cast<float>(table.value[level.offset(static_cast<int>(x), static_cast<int>(y))]);
-    }
-  }
-  return sum / static_cast<float>(FitTable::kFull);
-}
-
 }  // namespace
 
 VoteSurface translation_votes(std::span<const ClusterPoint> target, std::span<const ClusterPoint> source,
@@ -306,19 +288,6 @@ Pose2 ClusterMatcher::step(std::span<const ClusterPoint> source, const Pose2& po
     return pose;
   }
   return {pose.x_m + move.x(), pose.y_m + move.y(), wrap_angle(pose.theta_rad + move.z())};
-}
-
-ClusterFit::ClusterFit(const PreparedMap& target, const PreparedMap& source,
-                       std::span<const ClusterPoint> target_clusters, std::span<const ClusterPoint> source_clusters,
-                       int level, const WallFitOptions& options)
-    : target_table_(target.level(level), options),
-      source_table_(source.level(level), options),
-      target_clusters_(target_clusters),
-      source_clusters_(source_clusters) {}
-
-double ClusterFit::operator()(const Pose2& local_target_from_source) const {
-  return static_cast<double>(table_sum(target_table_, source_clusters_, local_target_from_source) +
-                             table_sum(source_table_, target_clusters_, inverse(local_target_from_source)));
 }
 
 }  // namespace gridmerge::som

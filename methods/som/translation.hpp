@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "gridmerge/align/scored_pose.hpp"
-#include "gridmerge/align/wall_fit.hpp"
 #include "gridmerge/grid/cluster_points.hpp"
 
 namespace gridmerge::som {
@@ -68,23 +67,6 @@ class ClusterMatcher {
   int rows_ = 0;
   std::vector<std::uint32_t> first_;  ///< of each square's members; one more at the end
   std::vector<std::uint32_t> members_;
-};
-
-/// The smooth fitness on cluster points alone: each, by its metres of wall, read in the other map's table. What WallFit
-/// sums over all walls, at a price that does not grow with the map. Borrows the maps.
-class ClusterFit {
- public:
-  ClusterFit(const PreparedMap& target, const PreparedMap& source, std::span<const ClusterPoint> target_clusters,
-             std::span<const ClusterPoint> source_clusters, int level, const WallFitOptions& options);
-
-  /// Metres of wall that lie on walls, of both maps, less the penalty for those in free space.
-  [[nodiscard]] double operator()(const Pose2& local_target_from_source) const;
-
- private:
-  FitTable target_table_;
-  FitTable source_table_;
-  std::span<const ClusterPoint> target_clusters_;
-  std::span<const ClusterPoint> source_clusters_;
 };
 
 }  // namespace gridmerge::som

@@ -361,10 +361,10 @@ bool right(const worlds::MapPair& pair, const Pose2& pose, double distance_m = 0
   return error.distance_m < distance_m && degrees(error.angle_rad) < angle_deg;
 }
 
-TEST(ClusterFit, IsBestAtTheTruth) {
+TEST(WallFitOnClusterPoints, IsBestAtTheTruth) {
   const ClusterPoints target = cluster_points(flat().target, {});
   const ClusterPoints source = cluster_points(flat().source, {});
-  const som::ClusterFit fit(flat().target, flat().source, target.points, source.points, 1, {});
+  const WallFit fit(flat().target, flat().source, 1, {}, as_walls(target), as_walls(source));
   const Pose2 truth = to_local(flat().pair.target_from_source, flat().target, flat().source);
   const double at_truth = fit(truth);
   for (const Pose2& off : {Pose2{0.5, 0, 0}, Pose2{0, -0.5, 0}, Pose2{0, 0, radians(8)}, Pose2{3, 2, 1}}) {

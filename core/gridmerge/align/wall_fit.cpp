@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "gridmerge/grid/wall_cells.hpp"
 
@@ -89,12 +90,28 @@ std::vector<ThinnedWall> thinned_walls(const PreparedMap& map, const MapLevel& l
   return points;
 }
 
+std::vector<ThinnedWall> as_walls(const ClusterPoints& clusters) {
+  std::vector<ThinnedWall> walls;
+  walls.reserve(clusters.points.size());
+  for (const ClusterPoint& one : clusters.points) {
+    walls.push_back({one.at, one.weight});
+  }
+  return walls;
+}
+
 WallFit::WallFit(const PreparedMap& target, const PreparedMap& source, int level, const WallFitOptions& options,
                  std::size_t max_points)
     : target_table_(target.level(level), options),
       source_table_(source.level(level), options),
       target_points_(every_nth(thinned_walls(target, target.level(level)), max_points)),
       source_points_(every_nth(thinned_walls(source, source.level(level)), max_points)) {}
+
+WallFit::WallFit(const PreparedMap& target, const PreparedMap& source, int level, const WallFitOptions& options,
+                 std::vector<ThinnedWall> target_points, std::vector<ThinnedWall> source_points)
+    : target_table_(target.level(level), options),
+      source_table_(source.level(level), options),
+      target_points_(std::move(target_points)),
+      source_points_(std::move(source_points)) {}
 
 double WallFit::operator()(const Pose2& local_target_from_source) const {
   const double forth = table_sum(target_table_, source_points_, local_target_from_source);

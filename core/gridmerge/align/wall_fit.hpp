@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "gridmerge/grid/cluster_points.hpp"
 #include "gridmerge/grid/prepared_map.hpp"
 
 namespace gridmerge {
@@ -29,12 +30,15 @@ struct FitTable {
 /// The mean of the wall points in one cell of a level.
 struct ThinnedWall {
   Point2f at;
-  float weight = 0;  ///< 1 where a wall crosses the whole cell; less for a speck
+  float weight = 0;  ///< 1 where a wall crosses the whole cell, less for a speck; metres of wall of a cluster point
 };
 
 /// One point for every cell of a level that holds walls. A thick wall then counts no more than a thin one, and the
 /// specks that a lidar sees on the ground or in the leaves count little.
 [[nodiscard]] std::vector<ThinnedWall> thinned_walls(const PreparedMap& map, const MapLevel& level);
+
+/// Cluster points as points that a fitness reads: each weighs the metres of wall it stands for.
+[[nodiscard]] std::vector<ThinnedWall> as_walls(const ClusterPoints& clusters);
 
 /// The fitness of poses at one level: a sum over the wall points of both maps, each read in the other's table.
 /// Swapping the maps and inverting the pose gives the same value up to rounding. Borrows the maps.
@@ -43,6 +47,10 @@ class WallFit {
   /// @param max_points  of each map's points, every n-th is used where there are more than this
   WallFit(const PreparedMap& target, const PreparedMap& source, int level, const WallFitOptions& options,
           std::size_t max_points);
+
+  /// The same on points that stand for the maps' walls: where a map is very large, its cluster points.
+  WallFit(const PreparedMap& target, const PreparedMap& source, int level, const WallFitOptions& options,
+          std::vector<ThinnedWall> target_points, std::vector<ThinnedWall> source_points);
 
   /// In points of full weight: about +1 for each that lies on a wall of the other map, down to -penalty for each in
   /// free space.
