@@ -11,7 +11,7 @@ namespace gridmerge {
 struct CorrelativeOptions {
   double angle_step_deg = 2;
   int finest_level = 2;
-  int max_cells = 640;
+  int max_cells = 540;
   bool both_ways = true;
   bool climb = true;
   int candidates = 24;

@@ -14,6 +14,7 @@
 #include "methods/features/keypoints.hpp"
 #include "methods/features/paper_features.hpp"
 #include "methods/features/rigid_ransac.hpp"
+#include "support/flat_pair.hpp"
 #include "support/scenes.hpp"
 #include "support/text_map.hpp"
 
@@ -23,35 +24,6 @@ namespace {
 using testing::IsEmpty;
 using testing::Not;
 using testing::SizeIs;
-
-worlds::MapPair coarse_flat() {
-  worlds::SceneOptions options = known_pair("flat");
-  options.resolution_m = 0.08;
-  return worlds::make_scene(options);
-}
-
-/// Two maps of one flat, prepared once for all.
-struct Flat {
-  worlds::MapPair pair = coarse_flat();
-  PreparedMap target{pair.target, 0.08};
-  PreparedMap source{pair.source, 0.08};
-
-  [[nodiscard]] AlignRequest request(const std::optional<PosePrior>& prior = {}) const {
-    return {.target = target, .source = source, .prior = prior, .carried = nullptr};
-  }
-  [[nodiscard]] bool found_by(const Proposal& proposal) const {
-    if (proposal.candidates.empty()) {
-      return false;
-    }
-    const PoseDifference error = pose_error(pair, proposal.candidates.front().target_from_source);
-    return error.distance_m < 0.3 && degrees(error.angle_rad) < 2;
-  }
-};
-
-const Flat& flat() {
-  static const Flat flat;
-  return flat;
-}
 
 RunContext run(std::uint64_t seed, const StopToken& stop = {}, TraceSink* trace = nullptr) {
   return {.seed = seed, .num_threads = 1, .stop = stop, .trace = trace};

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gridmerge/align/pipeline.hpp"
+#include "support/flat_pair.hpp"
 #include "support/scenes.hpp"
 #include "support/text_map.hpp"
 
@@ -35,39 +36,6 @@ bool right(const worlds::MapPair& pair, const Pose2& pose, const Tolerance& tole
 Alignment aligned(const worlds::MapPair& pair, std::uint64_t seed = 1) {
   return align({.target = pair.target, .source = pair.source, .prior = {}}, GeneticMerger({}), {},
                {.seed = seed, .num_threads = 2});
-}
-
-worlds::MapPair coarse_flat() {
-  worlds::SceneOptions options = known_pair("flat");
-  options.resolution_m = 0.08;
-  return worlds::make_scene(options);
-}
-
-/// Two maps of one flat, prepared for the method alone.
-struct Flat {
-  worlds::MapPair pair = coarse_flat();
-  PreparedMap target{pair.target, 0.08};
-  PreparedMap source{pair.source, 0.08};
-
-  [[nodiscard]] AlignRequest request(const std::optional<PosePrior>& prior = {},
-                                     const Population* carried = nullptr) const {
-    return {.target = target, .source = source, .prior = prior, .carried = carried};
-  }
-  /// The truth, moved and turned at the source's centre.
-  [[nodiscard]] Pose2 truth_off_by(double x_m, double y_m, double turn_deg) const {
-    const Point2 at = pair.target_from_source * source.centre_in_map();
-    return Pose2{at.x_m + x_m, at.y_m + y_m, 0} * Pose2{0, 0, radians(turn_deg)} * Pose2{-at.x_m, -at.y_m, 0} *
-           pair.target_from_source;
-  }
-  [[nodiscard]] bool found_by(const Proposal& proposal) const {
-    return !proposal.candidates.empty() &&
-           right(pair, proposal.candidates.front().target_from_source, {.distance_m = 0.3, .angle_deg = 2});
-  }
-};
-
-const Flat& flat() {
-  static const Flat flat;
-  return flat;
 }
 
 RunContext run(std::uint64_t seed, const StopToken& stop = {}, TraceSink* trace = nullptr) {

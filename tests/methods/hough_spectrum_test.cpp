@@ -17,6 +17,7 @@
 #include "methods/hough_spectrum/axis_spectra.hpp"
 #include "methods/hough_spectrum/paper_hough_spectrum.hpp"
 #include "methods/hough_spectrum/spectrum.hpp"
+#include "support/flat_pair.hpp"
 #include "support/scenes.hpp"
 #include "support/text_map.hpp"
 
@@ -206,32 +207,6 @@ TEST(AxisMatcher, KeepsToAWindow) {
   }
 }
 
-worlds::MapPair coarse_flat() {
-  worlds::SceneOptions options = known_pair("flat");
-  options.resolution_m = 0.08;
-  return worlds::make_scene(options);
-}
-
-/// Two maps of one flat, prepared for the method alone.
-struct Flat {
-  worlds::MapPair pair = coarse_flat();
-  PreparedMap target{pair.target, 0.08};
-  PreparedMap source{pair.source, 0.08};
-
-  [[nodiscard]] AlignRequest request(const std::optional<PosePrior>& prior = {}) const {
-    return {.target = target, .source = source, .prior = prior};
-  }
-  [[nodiscard]] bool near_truth(const Candidate& candidate) const {
-    const PoseDifference error = pose_error(pair, candidate.target_from_source);
-    return error.distance_m < 0.5 && degrees(error.angle_rad) < 3;
-  }
-};
-
-const Flat& flat() {
-  static const Flat flat;
-  return flat;
-}
-
 class HoughSpectrumOnKnownPairs : public testing::TestWithParam<KnownPair> {};
 
 TEST_P(HoughSpectrumOnKnownPairs, IsRightWhereTheMapsSayItAndNeverMergesWhereTheyDoNot) {
@@ -262,7 +237,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, HoughSpectrumOnKnownPairs, testing::ValuesIn(kn
 TEST(HoughSpectrum, HasTheTruthFirst) {
   const Proposal proposal = HoughSpectrumMerger({}).propose(flat().request(), {});
   ASSERT_THAT(proposal.candidates, Not(IsEmpty()));
-  EXPECT_TRUE(flat().near_truth(proposal.candidates.front()));
+  EXPECT_TRUE(flat().right(proposal.candidates.front().target_from_source, 0.5, 3));
 }
 
 TEST(HoughSpectrum, ProposesDistinctPoses) {
@@ -298,14 +273,14 @@ TEST(HoughSpectrum, FindsTheTruthInANarrowFence) {
       .target_from_source = flat().pair.target_from_source, .radius_m = 0.25, .angle_rad = radians(1.5)};
   const Proposal proposal = HoughSpectrumMerger({}).propose(flat().request(fence), {});
   ASSERT_THAT(proposal.candidates, Not(IsEmpty()));
-  EXPECT_TRUE(flat().near_truth(proposal.candidates.front()));
+  EXPECT_TRUE(flat().right(proposal.candidates.front().target_from_source, 0.5, 3));
 }
 
 TEST(HoughSpectrum, APriorWithoutAFenceIsOnlyAStart) {
   const PosePrior start{.target_from_source = {500, -300, 1}, .radius_m = {}, .angle_rad = {}};
   const Proposal proposal = HoughSpectrumMerger({}).propose(flat().request(start), {});
   ASSERT_THAT(proposal.candidates, Not(IsEmpty()));
-  EXPECT_TRUE(flat().near_truth(proposal.candidates.front()));
+  EXPECT_TRUE(flat().right(proposal.candidates.front().target_from_source, 0.5, 3));
 }
 
 TEST(HoughSpectrum, GivesItsBestSoFarWhenItIsStoppedAfterItsRotations) {
@@ -319,7 +294,7 @@ TEST(HoughSpectrum, GivesItsBestSoFarWhenItIsStoppedAfterItsRotations) {
       HoughSpectrumMerger({}).propose(flat().request(), {.stop = watcher.stop, .trace = &watcher});
   EXPECT_TRUE(proposal.stopped);
   EXPECT_TRUE(std::any_of(proposal.candidates.begin(), proposal.candidates.end(),
-                          [](const Candidate& one) { return flat().near_truth(one); }));
+                          [](const Candidate& one) { return flat().right(one.target_from_source, 0.5, 3); }));
 }
 
 /// Keeps the names of the views, and checks that each is whole.

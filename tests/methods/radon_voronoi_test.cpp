@@ -21,6 +21,7 @@
 #include "methods/radon_voronoi/paper_radon_voronoi.hpp"
 #include "methods/radon_voronoi/radon.hpp"
 #include "methods/radon_voronoi/voronoi.hpp"
+#include "support/flat_pair.hpp"
 #include "support/scenes.hpp"
 #include "support/text_map.hpp"
 
@@ -34,33 +35,7 @@ using testing::SizeIs;
 using voronoi::Diagram;
 using voronoi::EdgeMatrix;
 
-/// Two maps of one flat with rooms, prepared.
-struct Flat {
-  worlds::MapPair pair;
-  PreparedMap target;
-  PreparedMap source;
-
-  explicit Flat(int seed = 1)
-      : pair([seed] {
-          worlds::SceneOptions options = known_pair("flat", seed);
-          options.resolution_m = 0.08;
-          return worlds::make_scene(options);
-        }()),
-        target(pair.target, 0.08),
-        source(pair.source, 0.08) {}
-
-  [[nodiscard]] AlignRequest request(const std::optional<PosePrior>& prior = {}) const {
-    return {.target = target, .source = source, .prior = prior};
-  }
-  [[nodiscard]] Pose2 local_truth() const { return to_local(pair.target_from_source, target, source); }
-};
-
-const Flat& flat() {
-  static const Flat flat;
-  return flat;
-}
-
-bool near_truth(const Flat& flat, const Candidate& candidate, double distance_m, double angle_deg) {
+bool near_truth(const FlatPair& flat, const Candidate& candidate, double distance_m, double angle_deg) {
   const PoseDifference error = pose_error(flat.pair, candidate.target_from_source);
   return error.distance_m < distance_m && degrees(error.angle_rad) < angle_deg;
 }
@@ -430,7 +405,7 @@ TEST(EdgeVotes, OfADiagramWithItselfPeakAtNoShift) {
 TEST(EdgeVotes, FindTheShiftOfTwoMapsGivenTheTurn) {
   int first = 0;
   for (int seed = 1; seed <= 6; ++seed) {
-    const Flat scene(seed);
+    const FlatPair scene(seed);
     const Pose2 truth = scene.local_truth();
     const radon::Rotation turn{truth.theta_rad, radians(1), 1};
     const std::vector<ScoredPose> best = peaks(
@@ -498,7 +473,7 @@ TEST(RadonVoronoi, ProposesTheTruthFirst) {
   int first = 0;
   int any = 0;
   for (int seed = 1; seed <= 6; ++seed) {
-    const Flat scene(seed);
+    const FlatPair scene(seed);
     const Proposal proposal = RadonVoronoiMerger({}).propose(scene.request(), {.seed = 1, .num_threads = 2});
     ASSERT_THAT(proposal.candidates, Not(IsEmpty()));
     first += near_truth(scene, proposal.candidates.front(), 0.2, 1.5) ? 1 : 0;

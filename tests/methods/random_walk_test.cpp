@@ -17,6 +17,7 @@
 #include "methods/random_walk/map_distance.hpp"
 #include "methods/random_walk/paper_random_walk.hpp"
 #include "methods/random_walk/random_pose.hpp"
+#include "support/flat_pair.hpp"
 #include "support/scenes.hpp"
 #include "support/text_map.hpp"
 
@@ -50,40 +51,9 @@ OccupancyGrid room() {
 
 PreparedMap prepared(const OccupancyGrid& grid) { return {grid, grid.geometry.resolution_m}; }
 
-worlds::MapPair coarse_flat() {
-  worlds::SceneOptions options = known_pair("flat");
-  options.resolution_m = 0.08;
-  return worlds::make_scene(options);
-}
-
-/// Two maps of one flat, prepared once for all.
-struct Flat {
-  worlds::MapPair pair = coarse_flat();
-  PreparedMap target{pair.target, 0.08};
-  PreparedMap source{pair.source, 0.08};
-
-  [[nodiscard]] AlignRequest request(const std::optional<PosePrior>& prior = {}) const {
-    return {.target = target, .source = source, .prior = prior, .carried = nullptr};
-  }
-  /// A fence about the truth, which is moved and turned at the source's centre.
-  [[nodiscard]] PosePrior fence(double x_m, double y_m, double turn_deg) const {
-    const Point2 at = pair.target_from_source * source.centre_in_map();
-    const Pose2 off =
-        Pose2{at.x_m + x_m, at.y_m + y_m, 0} * Pose2{0, 0, radians(turn_deg)} * Pose2{-at.x_m, -at.y_m, 0};
-    return {.target_from_source = off * pair.target_from_source, .radius_m = 3, .angle_rad = radians(20)};
-  }
-  [[nodiscard]] bool found_by(const Proposal& proposal, double distance_m = 0.3, double angle_deg = 2) const {
-    if (proposal.candidates.empty()) {
-      return false;
-    }
-    const PoseDifference error = pose_error(pair, proposal.candidates.front().target_from_source);
-    return error.distance_m < distance_m && degrees(error.angle_rad) < angle_deg;
-  }
-};
-
-const Flat& flat() {
-  static const Flat flat;
-  return flat;
+/// A fence about the truth, which is moved and turned at the source's centre.
+PosePrior fence(double x_m, double y_m, double turn_deg) {
+  return {.target_from_source = flat().truth_off_by(x_m, y_m, turn_deg), .radius_m = 3, .angle_rad = radians(20)};
 }
 
 RunContext run(std::uint64_t seed, const StopToken& stop = {}, TraceSink* trace = nullptr) {
@@ -298,7 +268,7 @@ TEST(AdaptiveSteps, WidenWithSuccessAndNarrowWithFailureWithinBounds) {
 }
 
 TEST(StartPoses, LieInTheWindow) {
-  const AlignRequest request = flat().request(flat().fence(0.5, 0.2, 5));
+  const AlignRequest request = flat().request(fence(0.5, 0.2, 5));
   RandomStream random(1, "starts");
   const std::optional<PoseWindow> window = window_of(request);
   const std::vector<Pose2> poses = start_poses(request, window, 400, random);
@@ -344,8 +314,7 @@ TEST(RandomWalk, FindsTheTruthAnywhereForNearlyEverySeed) {
 
 TEST(RandomWalk, FindsTheTruthInAWindowForEverySeed) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    EXPECT_TRUE(
-        flat().found_by(RandomWalkMerger(quick()).propose(flat().request(flat().fence(1.2, -1.5, 12)), run(seed))))
+    EXPECT_TRUE(flat().found_by(RandomWalkMerger(quick()).propose(flat().request(fence(1.2, -1.5, 12)), run(seed))))
         << seed;
   }
 }
@@ -353,7 +322,7 @@ TEST(RandomWalk, FindsTheTruthInAWindowForEverySeed) {
 TEST(RandomWalk, StandsWhereItStartsWithoutSteps) {
   RandomWalkOptions options;
   options.window_starts = 1;
-  PosePrior start = flat().fence(0.1, 0, 1);
+  PosePrior start = fence(0.1, 0, 1);
   const Proposal proposal =
       RandomWalkMerger(options).propose(flat().request(start), run(1, StopToken().with_iterations(0)));
   EXPECT_EQ(proposal.iterations, 0);
@@ -370,9 +339,7 @@ TEST(RandomWalk, ItsWalksBringADistantStartHome) {
   options.steps = 200;
   int found = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    found += flat().found_by(RandomWalkMerger(options).propose(flat().request(flat().fence(0.5, -0.4, 6)), run(seed)))
-                 ? 1
-                 : 0;
+    found += flat().found_by(RandomWalkMerger(options).propose(flat().request(fence(0.5, -0.4, 6)), run(seed))) ? 1 : 0;
   }
   EXPECT_GE(found, 8) << "of 10 seeds";
 }
@@ -393,7 +360,7 @@ TEST(RandomWalk, ProposesDistinctPoses) {
 
 TEST(RandomWalk, NeverClaimsToHaveLookedEverywhere) {
   EXPECT_FALSE(RandomWalkMerger(quick()).propose(flat().request(), run(1)).surveyed);
-  EXPECT_FALSE(PaperRandomWalkMerger({}).propose(flat().request(flat().fence(0, 0, 0)), run(1)).surveyed);
+  EXPECT_FALSE(PaperRandomWalkMerger({}).propose(flat().request(fence(0, 0, 0)), run(1)).surveyed);
 }
 
 TEST(RandomWalk, DoesNotMergeMapsOfTwoPlaces) {
@@ -433,7 +400,7 @@ void expect_drawable(const Viewer& viewer) {
 
 TEST(RandomWalk, ShowsItsWalksAndIsNotChangedByIt) {
   Viewer viewer;
-  const AlignRequest request = flat().request(flat().fence(1, 1, 10));
+  const AlignRequest request = flat().request(fence(1, 1, 10));
   const Proposal shown = RandomWalkMerger(quick()).propose(request, run(1, {}, &viewer));
   const Proposal unseen = RandomWalkMerger(quick()).propose(request, run(1));
   expect_drawable(viewer);
@@ -446,8 +413,7 @@ TEST(PaperRandomWalk, FindsTheTruthNearbyForMostSeeds) {
   options.samples = 400;
   int found = 0;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const Proposal proposal =
-        PaperRandomWalkMerger(options).propose(flat().request(flat().fence(0.8, -0.5, 8)), run(seed));
+    const Proposal proposal = PaperRandomWalkMerger(options).propose(flat().request(fence(0.8, -0.5, 8)), run(seed));
     ASSERT_THAT(proposal.candidates, SizeIs(1));
     found += flat().found_by(proposal, 0.5, 4) ? 1 : 0;
   }
@@ -457,7 +423,7 @@ TEST(PaperRandomWalk, FindsTheTruthNearbyForMostSeeds) {
 TEST(PaperRandomWalk, StartsAtThePriorAndAnywhereWithoutOne) {
   const StopToken at_once = StopToken().with_iterations(0);
   const PaperRandomWalkMerger method({});
-  const PosePrior prior = flat().fence(0.3, 0, 2);
+  const PosePrior prior = fence(0.3, 0, 2);
   const Proposal there = method.propose(flat().request(prior), run(1, at_once));
   EXPECT_LT(difference_at(flat().source.centre_in_map(), there.candidates.front().target_from_source,
                           prior.target_from_source)
@@ -472,7 +438,7 @@ TEST(PaperRandomWalk, ShowsItsWalk) {
   PaperRandomWalkOptions options;
   options.samples = 100;
   Viewer viewer;
-  (void)PaperRandomWalkMerger(options).propose(flat().request(flat().fence(1, 1, 10)), run(1, {}, &viewer));
+  (void)PaperRandomWalkMerger(options).propose(flat().request(fence(1, 1, 10)), run(1, {}, &viewer));
   expect_drawable(viewer);
 }
 

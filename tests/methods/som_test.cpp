@@ -17,6 +17,7 @@
 #include "methods/som/posts.hpp"
 #include "methods/som/self_organising_map.hpp"
 #include "methods/som/translation.hpp"
+#include "support/flat_pair.hpp"
 #include "support/scenes.hpp"
 #include "support/text_map.hpp"
 
@@ -335,26 +336,6 @@ TEST(TranslationVotes, OfPostsAreForPosts) {
 }
 
 // --- the whole ---
-
-/// Two maps of one flat, prepared once for all.
-struct Flat {
-  worlds::MapPair pair = [] {
-    worlds::SceneOptions options = known_pair("flat");
-    options.resolution_m = 0.08;
-    return worlds::make_scene(options);
-  }();
-  PreparedMap target{pair.target, 0.08};
-  PreparedMap source{pair.source, 0.08};
-
-  [[nodiscard]] AlignRequest request(const std::optional<PosePrior>& prior = {}) const {
-    return {.target = target, .source = source, .prior = prior};
-  }
-};
-
-const Flat& flat() {
-  static const Flat flat;
-  return flat;
-}
 
 bool right(const worlds::MapPair& pair, const Pose2& pose, double distance_m = 0.2, double angle_deg = 0.7) {
   const PoseDifference error = pose_error(pair, pose);

@@ -19,7 +19,7 @@ struct LatticeOptions {
   double angle_step_rad = radians(2);
   int finest_level = 2;                           ///< of PreparedMap: its cells are the steps of the translation
   int coarsest_level = PreparedMap::kLevels - 1;  ///< even if max_cells is then passed
-  int max_cells = 640;    ///< both maps laid side by side [cells]: coarser levels are taken to stay below it
+  int max_cells = 540;    ///< both maps laid side by side [cells]: coarser levels are taken to stay below it
   bool both_ways = true;  ///< false: only the moving map's walls are read in the fixed map's table
   WallFitOptions fit = {};
 };
