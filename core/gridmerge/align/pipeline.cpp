@@ -78,7 +78,7 @@ std::vector<Hypothesis> distinct(std::vector<Hypothesis> ranked, Point2 source_c
 /// The poses of a coarse sweep that stand out: what a method that climbs one hill has not looked at.
 std::vector<Candidate> rivals(const AlignRequest& request, const RunContext& context) {
   constexpr std::size_t kRivals = 24;
-  const SweepOptions sweep{.lattice = {.angle_step_rad = radians(3), .coarsest_level = 3, .max_cells = 300},
+  const SweepOptions sweep{.lattice = {.angle_step_rad = radians(3), .coarsest_level = 3, .max_cells = 200},
                            .peaks_per_angle = 6};
   const SweepResult found = correlation_sweep(request.target, request.source, window_of(request), sweep, context);
   std::vector<Candidate> candidates;
