@@ -14,6 +14,7 @@
 #include "manifest/manifest.hpp"
 #include "map_server/map_files.hpp"
 #include "methods/register_all.hpp"
+#include "plugin/plugin_loader.hpp"
 #include "worlds/scene.hpp"
 
 namespace {
@@ -23,6 +24,7 @@ using namespace gridmerge;
 struct Arguments {
   std::vector<std::filesystem::path> manifests;
   std::vector<std::string> methods;
+  std::vector<std::filesystem::path> plugins;
   std::string profile = "default";
   std::vector<double> prior;
   int repeats = 1;
@@ -136,7 +138,7 @@ void print(const std::string& set, const std::map<std::string, Tally>& tallies, 
 }
 
 void run(const Arguments& arguments) {
-  const MethodRegistry registry = all_methods();
+  const MethodRegistry registry = with_plugins(all_methods(), arguments.plugins);
   std::vector<std::string> order;
   std::map<std::string, std::unique_ptr<Merger>> methods;
   for (const MethodEntry& entry : registry.entries()) {
@@ -176,6 +178,7 @@ int main(int argc, char** argv) {
   Arguments arguments;
   app.add_option("manifests", arguments.manifests, "CSV files that list pairs; none: pairs are drawn");
   app.add_option("--methods", arguments.methods, "Only these")->delimiter(',');
+  app.add_option("--plugin", arguments.plugins, "Shared libraries that bring methods along");
   app.add_option("--profile", arguments.profile, "Of every method")->capture_default_str();
   app.add_option("--prior", arguments.prior, "Give a start that is off by at most M metres and DEG degrees")
       ->delimiter(',')
