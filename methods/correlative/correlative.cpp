@@ -106,8 +106,8 @@ std::string remark_on(const PoseLattice& lattice, const LatticeProof& proof, dou
          text("%.2f deg apart, and cells of ", degrees(lattice.angle_step_rad())) +
          text("%.2f m holds ", lattice.resolution_m()) + text("%.1f million poses", proof.poses * 1e-6) +
          "; none scores above " + text("%.2f", PoseLattice::fitness(static_cast<double>(proof.best_score))) +
-         (next ? ", and farther than " + text("%.1f m or ", beside_m) +
-                     text("%.0f deg from it none above ", beside_deg) + text("%.2f", *next)
+         (next ? "; of its other peaks, " + text("%.1f m or ", beside_m) +
+                     text("%.0f deg away, none scores above ", beside_deg) + text("%.2f", *next)
                : "") +
          " (by Fourier transforms, whose rounding is below " + text("%.3f", PoseLattice::fitness(proof.rounding)) +
          "; what they cannot tell apart is added up in whole numbers)";

@@ -115,6 +115,7 @@ TEST(Correlative, SaysWhatItHasProved) {
   ASSERT_EQ(alignment.remarks.size(), 1U);
   EXPECT_THAT(alignment.remarks.front(), HasSubstr("180 angles, 2.00 deg apart, and cells of 0.20 m"));
   EXPECT_THAT(alignment.remarks.front(), HasSubstr("none scores above"));
+  EXPECT_THAT(alignment.remarks.front(), HasSubstr("of its other peaks, 0.6 m or 4 deg away, none scores above"));
   EXPECT_THAT(alignment.remarks.front(), HasSubstr("whole numbers"));
 }
 
