@@ -36,27 +36,34 @@ void remove_quietly(const fs::path& file) {
   fs::remove(file, ignored);
 }
 
-/// A second name for what stands at the target, or else a copy; an empty path if nothing does.
+/// A second name for what stands at the target, or else a copy; an empty path if nothing does. Other writers may put
+/// files in place at the same time.
 fs::path keep_previous(const fs::path& target) {
-  std::error_code error;
-  const fs::file_status status = fs::symlink_status(target, error);
-  if (!fs::exists(status)) {
-    return {};
-  }
-  if (fs::is_directory(status)) {
-    throw_unwritable(target, kIsDirectory);
-  }
-  fs::path previous = free_name(target, "previous");
-  fs::create_hard_link(target, previous, error);
-  if (error) {
+  for (;;) {
+    std::error_code error;
+    const fs::file_status status = fs::symlink_status(target, error);
+    if (!fs::exists(status)) {
+      return {};
+    }
+    if (fs::is_directory(status)) {
+      throw_unwritable(target, kIsDirectory);
+    }
+    const fs::path previous = free_name(target, "previous");
+    fs::create_hard_link(target, previous, error);
+    if (!error) {
+      return previous;
+    }
+    if (error == std::errc::file_exists || error == std::errc::no_such_file_or_directory) {
+      continue;  // one took the name, or the file, in between
+    }
     error.clear();
     fs::copy(target, previous, fs::copy_options::copy_symlinks, error);
-  }
-  if (error) {
+    if (!error) {
+      return previous;
+    }
     remove_quietly(previous);
     throw_unwritable(target, "the file there cannot be kept aside: " + error.message());
   }
-  return previous;
 }
 
 }  // namespace
@@ -72,8 +79,13 @@ void WholeFiles::stage(const fs::path& target, std::string_view content) {
   if (fs::is_directory(target, error)) {
     throw_unwritable(target, kIsDirectory);
   }
-  const fs::path partial = free_name(target, "partial");
-  std::FILE* file = std::fopen(partial.c_str(), "wbx");
+  fs::path partial;
+  std::FILE* file = nullptr;
+  do {  // another process may take the free name first
+    partial = free_name(target, "partial");
+    errno = 0;
+    file = std::fopen(partial.c_str(), "wbx");
+  } while (file == nullptr && errno == EEXIST);
   if (file == nullptr) {
     throw_unwritable(target, std::generic_category().message(errno));
   }

@@ -11,6 +11,7 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -634,6 +635,26 @@ TEST(WholeFiles, FilesLeftByAKilledProgramAreNoHindrance) {
   folder.put("a.partial0", "left");
   write_whole_file(folder / "a", "new");
   EXPECT_EQ(content_of(folder / "a"), "new");
+}
+
+TEST(WholeFiles, ManyWritersOfOneFileDoNotDisturbEachOther) {
+  const TempFolder folder;
+  const auto write_often = [&] {
+    for (int i = 0; i < 200; ++i) {
+      try {
+        write_whole_file(folder / "a", "new");
+      } catch (const InputError& error) {
+        ADD_FAILURE() << error.what();
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> writers;
+    for (int i = 0; i < 4; ++i) {
+      writers.emplace_back(write_often);
+    }
+  }
+  EXPECT_THAT(folder.names(), UnorderedElementsAre("a"));
 }
 
 }  // namespace
