@@ -1,29 +1,24 @@
 #pragma once
-/// From scans to an occupancy grid, by log-odds.
-#include <cstdint>
+/// From scans and the poses they were taken from to an occupancy grid.
 #include <vector>
 
-#include "gridmerge/grid/occupancy_grid.hpp"
+#include "worlds/log_odds_map.hpp"
 
 namespace gridmerge::worlds {
 
 class Mapper {
  public:
   /// @param geometry  of the grid drawn on; what falls outside is lost
-  explicit Mapper(const GridGeometry& geometry);
+  explicit Mapper(const GridGeometry& geometry) : map_(geometry, {}) {}
 
-  /// One turn of a lidar: the points hit, in its own frame. A cell is told once a turn, and a hit outweighs what
-  /// passes.
-  void add(const Pose2& map_from_lidar, const std::vector<Point2>& hits);
+  /// One turn of a lidar: the points hit, in its own frame.
+  void add(const Pose2& map_from_lidar, const std::vector<Point2>& hits) { map_.add(map_from_lidar, hits); }
 
   /// What is known, with a margin of a few unknown cells. Ternary: -1, 0, 100; otherwise 0..100 in percent.
-  [[nodiscard]] OccupancyGrid grid(bool probabilistic) const;
+  [[nodiscard]] OccupancyGrid grid(bool probabilistic) const { return map_.grid(probabilistic); }
 
  private:
-  GridGeometry geometry_;
-  std::vector<std::int16_t> log_odds_;  // [1/100]; 0: even, or not seen
-  std::vector<std::uint16_t> turn_;     // the last one that told of a cell; 0: not seen
-  std::uint16_t now_ = 0;
+  LogOddsMap map_;
 };
 
 }  // namespace gridmerge::worlds

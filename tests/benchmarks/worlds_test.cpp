@@ -186,7 +186,9 @@ TEST(Scene, RefusesOptionsOutOfRange) {
     FAIL() << "nothing thrown";
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
-                 "scene: kind = 'ship' is not one of: office, maze, flat, forest, corridor, hall; "
+                 "scene: kind = 'ship' is not one of: office, maze, flat, forest, corridor, hall, warehouse, cave, "
+                 "spiral, floors, "
+                 "bush_forest; "
                  "dropout = 2 is out of range: 0 .. 1");
   }
 }

@@ -1,4 +1,4 @@
-#include "worlds/mapper.hpp"
+#include "worlds/log_odds_map.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -10,11 +10,6 @@
 namespace gridmerge::worlds {
 namespace {
 
-// Log-odds [1/100] of one turn, and where they saturate: a wall passed by a stray beam stays a wall.
-constexpr int kHit = 85;
-constexpr int kPass = -40;
-constexpr int kMost = 350;
-constexpr int kLeast = -350;
 constexpr int kMargin = 4;  // [cells]
 
 /// The cells between two points of the grid, given in cells, without the last one (Amanatides, Woo 1987).
@@ -48,10 +43,10 @@ void walk_cells(Point2 from, Point2 to, Visit&& visit) {
 
 }  // namespace
 
-Mapper::Mapper(const GridGeometry& geometry)
-    : geometry_(geometry), log_odds_(geometry.cell_count(), 0), turn_(geometry.cell_count(), 0) {}
+LogOddsMap::LogOddsMap(const GridGeometry& geometry, const LogOddsSteps& steps)
+    : geometry_(geometry), steps_(steps), log_odds_(geometry.cell_count(), 0), turn_(geometry.cell_count(), 0) {}
 
-void Mapper::add(const Pose2& map_from_lidar, const std::vector<Point2>& hits) {
+void LogOddsMap::add(const Pose2& map_from_lidar, const std::vector<Point2>& hits) {
   assert(now_ < std::numeric_limits<std::uint16_t>::max());
   ++now_;
   const Pose2 grid_from_lidar = inverse(geometry_.map_from_grid) * map_from_lidar;
@@ -68,20 +63,20 @@ void Mapper::add(const Pose2& map_from_lidar, const std::vector<Point2>& hits) {
     const std::size_t cell = geometry_.offset({column, row});
     if (turn_[cell] != now_) {
       turn_[cell] = now_;
-      log_odds_[cell] = static_cast<std::int16_t>(std::clamp(log_odds_[cell] + by, kLeast, kMost));
+      log_odds_[cell] = static_cast<std::int16_t>(std::clamp(log_odds_[cell] + by, steps_.least, steps_.most));
     }
   };
   const Point2 here = in_cells({0, 0});
   for (const Point2& hit : hits) {
     const Point2 end = in_cells(hit);
-    tell(static_cast<int>(std::floor(end.x_m)), static_cast<int>(std::floor(end.y_m)), kHit);
+    tell(static_cast<int>(std::floor(end.x_m)), static_cast<int>(std::floor(end.y_m)), steps_.hit);
   }
   for (const Point2& hit : hits) {
-    walk_cells(here, in_cells(hit), [&](int column, int row) { tell(column, row, kPass); });
+    walk_cells(here, in_cells(hit), [&](int column, int row) { tell(column, row, steps_.pass); });
   }
 }
 
-OccupancyGrid Mapper::grid(bool probabilistic) const {
+OccupancyGrid LogOddsMap::grid(bool probabilistic) const {
   CellIndex low = {geometry_.width, geometry_.height};
   CellIndex high = {-1, -1};
   for (int row = 0; row < geometry_.height; ++row) {
