@@ -1,9 +1,11 @@
 #include "manifest/csv_table.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 
 #include "gridmerge/base/error.hpp"
 
@@ -30,7 +32,19 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
+std::string line_of(const std::vector<std::string>& cells) {
+  std::string line;
+  for (const std::string& cell : cells) {
+    line += (&cell == &cells.front() ? "" : ",") + cell;
+  }
+  return line + "\n";
+}
+
 }  // namespace
+
+bool CsvRow::has(std::string_view column) const {
+  return std::find(columns_->begin(), columns_->end(), column) != columns_->end();
+}
 
 std::string CsvRow::text(std::string_view column) const {
   const auto at = static_cast<std::size_t>(std::find(columns_->begin(), columns_->end(), column) - columns_->begin());
@@ -49,6 +63,10 @@ double CsvRow::number(std::string_view column) const {
   return value;
 }
 
+std::optional<double> CsvRow::number_if_any(std::string_view column) const {
+  return has(column) && !text(column).empty() ? std::optional<double>(number(column)) : std::nullopt;
+}
+
 std::vector<CsvRow> read_csv(const std::filesystem::path& file) {
   std::ifstream stream(file);
   std::string line;
@@ -63,6 +81,29 @@ std::vector<CsvRow> read_csv(const std::filesystem::path& file) {
     }
   }
   return rows;
+}
+
+std::string csv_text(const std::string& where, const std::vector<std::string>& columns,
+                     const std::vector<std::vector<std::string>>& rows) {
+  std::string text = line_of(columns);
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    if (rows[row].size() != columns.size()) {
+      throw std::invalid_argument("csv_text: a row has not as many cells as there are columns");
+    }
+    for (std::size_t column = 0; column < columns.size(); ++column) {
+      if (rows[row][column].find_first_of(",\"\r\n") != std::string::npos) {
+        throw InputError(where + ":" + std::to_string(row + 2),
+                         columns[column] + ": '" + rows[row][column] + "' holds a comma, a quote or the end of a line");
+      }
+    }
+    text += line_of(rows[row]);
+  }
+  return text;
+}
+
+std::string csv_number(double value) {
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
 }  // namespace gridmerge

@@ -5,7 +5,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "gridmerge/base/error.hpp"
 
@@ -43,7 +45,71 @@ TEST(Manifest, ReadsPairsByTheNamesOfTheColumns) {
   ASSERT_TRUE(pairs[0].truth);
   EXPECT_EQ(pairs[0].truth->target_from_source, (Pose2{1.5, -2, 0.25}));
   EXPECT_EQ(pairs[0].truth->tolerance_rad, radians(3));
+  EXPECT_EQ(pairs[0].tags, "hard bent");
+  EXPECT_FALSE(pairs[0].source_centre);
+  EXPECT_FALSE(pairs[0].overlap);
   EXPECT_FALSE(pairs[1].truth);
+  EXPECT_TRUE(pairs[1].truth_known);
+}
+
+/// Two pairs with every field filled, of maps in that folder.
+std::vector<ManifestPair> two_pairs(const std::filesystem::path& folder) {
+  ManifestPair same = {
+      .set = "flat",
+      .target_name = "x/a.yaml",
+      .source_name = "b.yaml",
+      .target_yaml = folder / "x/a.yaml",
+      .source_yaml = folder / "b.yaml",
+      .truth =
+          KnownPose{.target_from_source = {1.0 / 3, -2e-7, 0.25}, .tolerance_m = 0.5, .tolerance_rad = radians(1.5)},
+      .scenario = "hard",
+      .tags = "hard bent",
+      .source_centre = Point2{-3.125, 8},
+      .overlap = 0.863};
+  ManifestPair different = same;
+  different.truth.reset();
+  different.overlap.reset();
+  different.scenario = different.tags = "other-building";
+  return {same, different};
+}
+
+TEST(Manifest, ReadsBackEqualWhatItWrote) {
+  const std::filesystem::path file = manifest_of("");
+  const std::vector<ManifestPair> pairs = two_pairs(file.parent_path());
+  write_manifest(file, pairs);
+  EXPECT_EQ(read_manifest(file), pairs);
+}
+
+TEST(Manifest, WritesTheRefereesColumns) {
+  const std::string text = manifest_text("p.csv", two_pairs(""));
+  EXPECT_EQ(text,
+            "set,a,b,truth,tx,ty,theta,cx,cy,tol_m,tol_deg,overlap,tags\n"
+            "flat,x/a.yaml,b.yaml,same,0.3333333333333333,-2e-07,0.25,-3.125,8,0.5,1.5,0.863,hard bent\n"
+            "flat,x/a.yaml,b.yaml,different,,,,-3.125,8,,,,other-building\n");
+}
+
+TEST(Manifest, LeavesTheFileAsItWasWhereACellCannotBeWritten) {
+  const std::filesystem::path file = manifest_of("as it was");
+  std::vector<ManifestPair> pairs = two_pairs(file.parent_path());
+  pairs[1].source_name = "a, b.yaml";
+  try {
+    write_manifest(file, pairs);
+    FAIL() << "a comma was written";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::EndsWith(".csv:3: b: 'a, b.yaml' holds a comma, a quote or the end of a line"));
+  }
+  std::string text;
+  std::getline(std::ifstream(file), text);
+  EXPECT_EQ(text, "as it was");
+}
+
+TEST(Manifest, RefusesToWriteWhatNobodyKnows) {
+  std::vector<ManifestPair> unknown = two_pairs("");
+  unknown[1].truth_known = false;
+  EXPECT_THROW(static_cast<void>(manifest_text("p.csv", unknown)), std::invalid_argument);
+  std::vector<ManifestPair> without_centre = two_pairs("");
+  without_centre[0].source_centre.reset();
+  EXPECT_THROW(static_cast<void>(manifest_text("p.csv", without_centre)), std::invalid_argument);
 }
 
 TEST(Manifest, NamesFileLineAndColumnOfAProblem) {
