@@ -3,10 +3,14 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "cli/program.hpp"
 #include "cli/usage_error.hpp"
 #include "gridmerge/base/error.hpp"
+#ifdef GRIDMERGE_WITH_BENCHMARKS
+#include "commands/commands.hpp"
+#endif
 
 namespace {
 
@@ -15,12 +19,20 @@ int fail(const std::string& what, int status) {
   return status;
 }
 
+std::vector<gridmerge::cli::CommandMaker> further_commands() {
+#ifdef GRIDMERGE_WITH_BENCHMARKS
+  return gridmerge::cli::benchmark_commands();
+#else
+  return {};
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace gridmerge::cli;
   try {
-    const int status = run_program(argc, argv, std::cout);
+    const int status = run_program(argc, argv, std::cout, further_commands());
     return std::cout.flush() ? status : fail("standard output: cannot be written", kInputError);
   } catch (const UsageError& error) {
     return fail(error.what(), kWrongUsage);

@@ -18,15 +18,18 @@ constexpr const char* kSeeHelp = "\nRun with --help for more information.";
 
 }  // namespace
 
-int run_program(int argc, const char* const* argv, std::ostream& out) {
+int run_program(int argc, const char* const* argv, std::ostream& out, const std::vector<CommandMaker>& further) {
   CLI::App app("Merges occupancy grid maps of robots that do not know where they started.", "gridmerge");
   app.set_version_flag("--version", "gridmerge " GRIDMERGE_VERSION);
   app.footer(kFooter);
   const MethodRegistry methods = all_methods();
   const CommandContext context{app, methods};
-  const std::vector<Command> commands = {
-      align_command(context),   merge_command(context),  evaluate_command(context),    inspect_command(context),
-      methods_command(context), config_command(context), check_config_command(context)};
+  std::vector<Command> commands = {align_command(context),       merge_command(context),   evaluate_command(context),
+                                   inspect_command(context),     methods_command(context), config_command(context),
+                                   check_config_command(context)};
+  for (const CommandMaker make : further) {
+    commands.push_back(make(context));
+  }
   std::string names;
   bool known = false;
   for (const Command& command : commands) {

@@ -2,6 +2,7 @@
 /// The command line as a whole.
 #include <functional>
 #include <iosfwd>
+#include <vector>
 
 #include "gridmerge/align/registry.hpp"
 
@@ -31,10 +32,14 @@ struct CommandContext {
 [[nodiscard]] Command config_command(const CommandContext& context);
 [[nodiscard]] Command check_config_command(const CommandContext& context);
 
+using CommandMaker = Command (*)(const CommandContext&);
+
 /// Runs the command that the arguments name; the answer goes to `out`.
+/// @param further  commands that come after those of this folder
 /// @return an ExitStatus
 /// @throws UsageError for a wrong command line, InputError for a wrong file, std::invalid_argument for maps that break
 /// a rule of the core
-[[nodiscard]] int run_program(int argc, const char* const* argv, std::ostream& out);
+[[nodiscard]] int run_program(int argc, const char* const* argv, std::ostream& out,
+                              const std::vector<CommandMaker>& further = {});
 
 }  // namespace gridmerge::cli
