@@ -39,9 +39,8 @@ build: configure
 	@$(BUILD_TARGET) gridmerge_cli
 
 demo: build
-	@$(BUILD_TARGET) gridmerge_scene
 	@rm -rf $(DEMO)
-	@build/benchmarks/worlds/gridmerge_scene --kind office --seed 3 -o $(DEMO)
+	@build/gridmerge simulate --kind office --seed 3 -o $(DEMO)
 	build/gridmerge merge $(DEMO)/a.yaml $(DEMO)/b.yaml -o $(DEMO)/merged
 	@echo 'The two maps:           $(DEMO)/a.pgm, $(DEMO)/b.pgm (truth: $(DEMO)/truth.json)'
 	@echo 'Merged map, overlay:    $(DEMO)/merged'
