@@ -206,11 +206,13 @@ Alignment align_prepared(const AlignRequest& request, const Merger& method, cons
   alignment.hypotheses = distinct(hypotheses, source.centre_in_map(), options.verdict,
                                   static_cast<std::size_t>(std::max(2, options.hypotheses)));
   if (!alignment.hypotheses.empty()) {
-    // All figures of the best and of its strongest rival: both enter the verdict.
+    // All figures of the best, of its strongest rival, and of those without conflict: they enter the verdict.
     const std::size_t rival = strongest_rival(alignment.hypotheses);
-    parallel_for(rival < alignment.hypotheses.size() ? 2 : 1, context.num_threads, [&](std::size_t i, std::size_t) {
-      Hypothesis& one = alignment.hypotheses[i == 0 ? 0 : rival];
-      one.figures = evaluator.figures(one.target_from_source.pose);
+    parallel_for(alignment.hypotheses.size(), context.num_threads, [&](std::size_t i, std::size_t) {
+      Hypothesis& one = alignment.hypotheses[i];
+      if (i == 0 || i == rival || is_spotless(one, options.verdict)) {
+        one.figures = evaluator.figures(one.target_from_source.pose);
+      }
     });
     alignment.random_level = evaluator.random_level(context.seed);
   }

@@ -88,6 +88,9 @@ void VerdictOptions::describe(OptionList& list) {
             "Another pose with no more conflict than this, and enough in common to be merged alone, is a doubt however "
             "far the best one leads.",
             "A symmetric hall seen from two ends has such a pose; 0 allows it none."})
+      .add("spotless_evidence_share", spotless_evidence_share, 0, 1,
+           {"", "Such a pose that is not the strongest other one must have this share of the best one's evidence.",
+            "Raise it where large maps are left apart for a pose that only brushes them."})
       .add("bias", bias, -1e3, 1e3, {"", "Confidence: constant term of the logistic function.", ""})
       .add("per_log_same_side", per_log_same_side, -1e3, 1e3,
            {"", "Confidence: per natural logarithm of the wall seen from the same side [m].", ""})
@@ -119,6 +122,10 @@ std::size_t strongest_rival(const std::vector<Hypothesis>& ranked) {
   return rival;
 }
 
+bool is_spotless(const Hypothesis& hypothesis, const VerdictOptions& options) {
+  return hypothesis.figures.conflict_share < options.spotless_conflict_share;
+}
+
 Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_level, const VerdictOptions& o,
               bool surveyed) {
   Verdict v;
@@ -128,8 +135,7 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_l
   }
   const Figures& best = ranked.front().figures;
   const std::size_t rival_at = strongest_rival(ranked);
-  const Hypothesis* const rival = rival_at < ranked.size() ? &ranked[rival_at] : nullptr;
-  const double other = rival != nullptr ? std::max(0.0, rival->figures.evidence_m) : 0;
+  const double other = rival_at < ranked.size() ? std::max(0.0, ranked[rival_at].figures.evidence_m) : 0;
   v.lead_m = std::max(0.0, best.evidence_m - other);
   v.lead = best.evidence_m > 0 ? v.lead_m / best.evidence_m : 0;
   v.deviations = random_level.deviation_m > 0 ? (best.evidence_m - random_level.mean_m) / random_level.deviation_m : 0;
@@ -178,11 +184,17 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_l
                      fixed(v.confidence, 2) + " of " + fixed(o.min_confidence, 2) + " wanted");
   }
   // Laid over each other as far as they go, two halves of a symmetric hall agree in more than where they really meet. A
-  // lead says nothing then: a pose without conflict cannot be ruled out.
-  if (rival != nullptr && rival->figures.conflict_share < o.spotless_conflict_share &&
-      same_side_m(rival->figures) >= o.min_same_side_m && confidence_of(rival->figures, 1, o) >= o.min_confidence) {
+  // lead says nothing then: a pose without conflict cannot be ruled out. It need not be the strongest of the others,
+  // but of the weaker ones some have no conflict only because they hardly overlap.
+  const auto spotless = std::find_if(ranked.begin() + 1, ranked.end(), [&](const Hypothesis& one) {
+    const bool strong =
+        &one == &ranked[rival_at] || one.figures.evidence_m >= o.spotless_evidence_share * best.evidence_m;
+    return strong && is_spotless(one, o) && same_side_m(one.figures) >= o.min_same_side_m &&
+           confidence_of(one.figures, 1, o) >= o.min_confidence;
+  });
+  if (spotless != ranked.end()) {
     rivalled = true;
-    doubts.push_back("another pose fits without conflict: " + fixed(same_side_m(rival->figures), 1) +
+    doubts.push_back("another pose fits without conflict: " + fixed(same_side_m(spotless->figures), 1) +
                      " m of wall agree there as well");
   }
   if (!surveyed) {

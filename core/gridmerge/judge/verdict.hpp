@@ -24,7 +24,7 @@ enum class Outcome {
 /// A pose with what the Evaluator says of it.
 struct Hypothesis {
   PoseEstimate target_from_source;  ///< between map frames
-  Figures figures;                  ///< all of them for the first hypothesis and its strongest rival, else the walls'
+  Figures figures;  ///< all of them for the first one, its strongest rival, and those without conflict; else the walls'
   double method_score = 0;
   bool proposed = true;  ///< by the method; false: a rival that the pipeline found
 };
@@ -37,6 +37,7 @@ struct VerdictOptions {
   double min_deviations = 1.5;
   double min_confidence = 0.9;
   double spotless_conflict_share = 0.01;
+  double spotless_evidence_share = 0.25;
   // The confidence: a logistic function of seven figures (docs/verdict.md says how the weights were found).
   double bias = -11.7;
   double per_log_same_side = 0.58;
@@ -66,6 +67,9 @@ struct Verdict {
 
 /// The index of the hypothesis other than the first that has the most evidence; ranked.size() where there is none.
 [[nodiscard]] std::size_t strongest_rival(const std::vector<Hypothesis>& ranked);
+
+/// Whether its walls hardly stand in free space anywhere: if it has enough in common, it cannot be ruled out.
+[[nodiscard]] bool is_spotless(const Hypothesis& hypothesis, const VerdictOptions& options);
 
 /// @param ranked  the hypothesis to judge, then the others, most support first; no two closer than the verdict's
 ///                distinct_m and distinct_deg

@@ -495,5 +495,18 @@ TEST(Pipeline, RefusesGridsAndOptionsThatBreakTheirRules) {
   refused([](PipelineOptions& o) { o.verdict.min_confidence = 2; });
 }
 
+/// Laid over each other as far as they go, half a turn off, its two ends agree in more than where they meet.
+TEST(Align, LeavesTheTwoEndsOfASymmetricHallApart) {
+  const worlds::MapPair hall = worlds::make_scene({.kind = "hall"});
+  const Pose2 half_a_turn_off = {-10, 0, radians(-70)};
+  const Pose2 a_column_off = {2, 7, radians(110)};  // stronger than the truth, with a little conflict
+  const Alignment alignment = align({.target = hall.target, .source = hall.source, .prior = {}},
+                                    Told({hall.target_from_source, half_a_turn_off, a_column_off}), {}, {});
+  EXPECT_EQ(alignment.outcome, Outcome::kAmbiguous);
+  EXPECT_THAT(alignment.reasons.front(), HasSubstr("without conflict"));
+  EXPECT_LT(difference_at({0, 0}, alignment.hypotheses.front().target_from_source.pose, half_a_turn_off).distance_m,
+            0.1);
+}
+
 }  // namespace
 }  // namespace gridmerge

@@ -144,6 +144,15 @@ TEST(Verdict, DoubtsAnyLeadOverARivalWithoutConflict) {
   EXPECT_EQ(judge({hypothesis(200, 0, 300), hypothesis(5, 0, 3)}, kChance, {}).outcome, Outcome::kMerged);
 }
 
+TEST(Verdict, DoubtsALeadOverAWeakerRivalWithoutConflictToo) {
+  const Verdict v = judge({hypothesis(200, 0, 300), hypothesis(140, 4, 300), hypothesis(80, 0, 150)}, kChance, {});
+  EXPECT_EQ(v.outcome, Outcome::kAmbiguous);
+  EXPECT_THAT(v.reasons.front(), AllOf(HasSubstr("without conflict"), HasSubstr("80.0 m")));
+  // A pose that only brushes the other map has no conflict either.
+  EXPECT_EQ(judge({hypothesis(200, 0, 300), hypothesis(140, 4, 300), hypothesis(40, 0, 150)}, kChance, {}).outcome,
+            Outcome::kMerged);
+}
+
 TEST(Verdict, NeverMergesWhereRivalsMayHaveBeenOverlooked) {
   EXPECT_EQ(judge({hypothesis(80, 1)}, kChance, {}, true).outcome, Outcome::kMerged);
   const Verdict v = judge({hypothesis(80, 1)}, kChance, {}, false);
