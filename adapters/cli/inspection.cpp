@@ -5,6 +5,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "report/html.hpp"
 #include "report/overlay.hpp"
 #include "report/view_picture.hpp"
 
@@ -33,29 +34,6 @@ std::string as_name(std::string text) {
   return text;
 }
 
-std::string escaped(const std::string& text) {
-  std::string html;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        html += "&amp;";
-        break;
-      case '<':
-        html += "&lt;";
-        break;
-      case '>':
-        html += "&gt;";
-        break;
-      case '"':
-        html += "&quot;";
-        break;
-      default:
-        html += c;
-    }
-  }
-  return html;
-}
-
 Picture best_pose(const AlignInput& input, const Alignment& alignment, int num_threads) {
   const Pose2& pose = alignment.hypotheses.front().target_from_source.pose;
   const Overlay overlay =
@@ -66,7 +44,7 @@ Picture best_pose(const AlignInput& input, const Alignment& alignment, int num_t
 std::string list_html(const std::vector<std::string>& items) {
   std::string html = "<ul>\n";
   for (const std::string& item : items) {
-    html += "<li>" + escaped(item) + "</li>\n";
+    html += "<li>" + html_escaped(item) + "</li>\n";
   }
   return html + "</ul>\n";
 }
@@ -121,16 +99,16 @@ std::vector<Picture> pictures_of(const std::vector<View>& views, const AlignInpu
 }
 
 std::string page_html(const PageText& text, const std::vector<Picture>& pictures) {
-  std::string html = std::string(kPageHead) + "<title>" + escaped(text.title) + "</title>\n</head>\n<body>\n<h1>" +
-                     escaped(text.title) + "</h1>\n<p>" + escaped(text.verdict) + "</p>\n" + list_html(text.reasons) +
-                     "<p>";
+  std::string html = std::string(kPageHead) + "<title>" + html_escaped(text.title) + "</title>\n</head>\n<body>\n<h1>" +
+                     html_escaped(text.title) + "</h1>\n<p>" + html_escaped(text.verdict) + "</p>\n" +
+                     list_html(text.reasons) + "<p>";
   for (const std::string& fact : text.facts) {
-    html += escaped(fact) + "<br>\n";
+    html += html_escaped(fact) + "<br>\n";
   }
   html += "</p>\n";
   for (const Picture& picture : pictures) {
-    html += "<h2>" + escaped(picture.title) + "</h2>\n<img src=\"" + escaped(picture.file) + "\" alt=\"" +
-            escaped(picture.title) + "\">\n";
+    html += "<h2>" + html_escaped(picture.title) + "</h2>\n<img src=\"" + html_escaped(picture.file) + "\" alt=\"" +
+            html_escaped(picture.title) + "\">\n";
   }
   return html + "</body>\n</html>\n";
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "report/html.hpp"
+
 namespace gridmerge::page {
 namespace {
 
@@ -55,26 +57,7 @@ std::string json_number(double value) {
 }
 
 std::string html_text(std::string_view text) {
-  std::string html;
-  for (const char c : nlohmann::json::parse(quoted_utf8(text)).get<std::string>()) {
-    switch (c) {
-      case '&':
-        html += "&amp;";
-        break;
-      case '<':
-        html += "&lt;";
-        break;
-      case '>':
-        html += "&gt;";
-        break;
-      case '"':
-        html += "&quot;";
-        break;
-      default:
-        html += c;
-    }
-  }
-  return html;
+  return html_escaped(nlohmann::json::parse(quoted_utf8(text)).get<std::string>());
 }
 
 std::string json_png(std::string_view png) {

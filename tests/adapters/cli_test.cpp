@@ -1,7 +1,6 @@
 /// The program as the user meets it: most cases run `gridmerge` as a process.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <chrono>
@@ -19,6 +18,7 @@
 #include "map_server/map_files.hpp"
 #include "methods/register_all.hpp"
 #include "support/scenes.hpp"
+#include "support/shell.hpp"
 #include "support/text_map.hpp"
 
 namespace gridmerge::cli {
@@ -35,15 +35,6 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-std::string content_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
-void write(const fs::path& file, const std::string& content) { std::ofstream(file, std::ios::binary) << content; }
-
 /// Names of what lies in a folder, sorted.
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
@@ -54,13 +45,8 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-struct Ended {
-  int status = -1;
-  std::string out;
-  std::string err;
-
-  [[nodiscard]] json answer() const { return json::parse(out); }
-};
+/// The answer of --json.
+json answer_of(const Ended& ended) { return json::parse(ended.out); }
 
 /// A folder with maps of known truth; it is gone after the tests of a suite.
 class Program : public ::testing::Test {
@@ -102,16 +88,7 @@ class Program : public ::testing::Test {
     return result.err;
   }
 
-  static Ended shell(const std::string& command) {
-    const std::string in_folder =
-        "cd '" + folder.string() + "' && { " + command + "; } >stdout.txt 2>stderr.txt </dev/null";
-    const int status = std::system(in_folder.c_str());
-    Ended result{WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(folder / "stdout.txt"),
-                 content_of(folder / "stderr.txt")};
-    fs::remove(folder / "stdout.txt");
-    fs::remove(folder / "stderr.txt");
-    return result;
-  }
+  static Ended shell(const std::string& command) { return run_in(folder, command); }
 
   static Pose2 transform_of(const json& answer) {
     const json& t = answer.at("transform");
@@ -144,7 +121,7 @@ TEST_F(AlignCommand, AnswersWithOneObjectThatHoldsAllThatIsPromised) {
   const Ended result = run("align a.yaml b.yaml --json --seed 7 --threads 2");
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(result.err, "");
-  const json answer = result.answer();
+  const json answer = answer_of(result);
   EXPECT_EQ(answer.at("status"), "merged");
   const PoseDifference error = pose_error(pair, transform_of(answer));
   EXPECT_LT(error.distance_m, 0.1);
@@ -187,8 +164,8 @@ TEST_F(AlignCommand, SaysItInWordsWithoutJson) {
 }
 
 TEST_F(AlignCommand, SwappedMapsGiveTheInversePose) {
-  const json there = run("align a.yaml b.yaml --json").answer();
-  const json back = run("align b.yaml a.yaml --json").answer();
+  const json there = answer_of(run("align a.yaml b.yaml --json"));
+  const json back = answer_of(run("align b.yaml a.yaml --json"));
   EXPECT_EQ(back.at("status"), "merged");
   const PoseDifference apart =
       difference_at(centre_of_known(pair.source), transform_of(there), inverse(transform_of(back)));
@@ -198,7 +175,7 @@ TEST_F(AlignCommand, SwappedMapsGiveTheInversePose) {
 
 TEST_F(AlignCommand, TheSameSeedGivesTheSameAnswerAtAnyNumberOfThreads) {
   const auto answer = [](const std::string& threads) {
-    json all = run("align a.yaml b.yaml --json --threads " + threads).answer();
+    json all = answer_of(run("align a.yaml b.yaml --json --threads " + threads));
     all.erase("seconds");
     all.erase("threads");
     return all;
@@ -209,8 +186,8 @@ TEST_F(AlignCommand, TheSameSeedGivesTheSameAnswerAtAnyNumberOfThreads) {
 TEST_F(AlignCommand, DoesNotMergeStrangersAndStillTellsTheBestPose) {
   const Ended result = run("align a.yaml stranger.yaml --json");
   EXPECT_EQ(result.status, 3);
-  EXPECT_THAT(result.answer().at("status"), ::testing::AnyOf("no_overlap", "ambiguous"));
-  EXPECT_TRUE(result.answer().at("transform").is_object());
+  EXPECT_THAT(answer_of(result).at("status"), ::testing::AnyOf("no_overlap", "ambiguous"));
+  EXPECT_TRUE(answer_of(result).at("transform").is_object());
 }
 
 TEST_F(AlignCommand, APriorWithRadiusAndAngleIsAFence) {
@@ -219,7 +196,7 @@ TEST_F(AlignCommand, APriorWithRadiusAndAngleIsAFence) {
   prior << wrong.x_m << "," << wrong.y_m << "," << wrong.theta_rad;
   const auto off = [&](const std::string& fence) {
     const Ended result = run("align a.yaml b.yaml --json --prior=" + prior.str() + fence);
-    const json answer = result.answer();
+    const json answer = answer_of(result);
     EXPECT_NEAR(answer.at("prior").at("x"), wrong.x_m, 1e-3);
     EXPECT_EQ(answer.at("prior").at("radius_m").is_null(), fence.empty());
     EXPECT_TRUE(answer.at("transform").is_object());
@@ -264,15 +241,15 @@ TEST_F(AlignCommand, WritesEveryIterationToTheTraceFile) {
 TEST_F(AlignCommand, CtrlCEndsTheSearchAndTellsTheBestSoFar) {
   const Ended result = interrupted("align a.yaml b.yaml --json");
   EXPECT_EQ(result.status, 3) << result.err;
-  EXPECT_EQ(result.answer().at("stopped"), true);
-  EXPECT_TRUE(result.answer().at("transform").is_object());
+  EXPECT_EQ(answer_of(result).at("stopped"), true);
+  EXPECT_TRUE(answer_of(result).at("transform").is_object());
 }
 
 TEST_F(AlignCommand, ATimeLimitIsKept) {
   const Ended result =
       run("align a.yaml b.yaml --json --profile paper --set genetic.iterations_per_epoch=1000000 --time-limit 0.5");
-  EXPECT_EQ(result.answer().at("stopped"), true);
-  EXPECT_LT(result.answer().at("seconds").at("propose"), 20.0);
+  EXPECT_EQ(answer_of(result).at("stopped"), true);
+  EXPECT_LT(answer_of(result).at("seconds").at("propose"), 20.0);
 }
 
 TEST_F(MergeCommand, WritesMapOverlayAndReport) {
@@ -315,7 +292,7 @@ TEST_F(MergeCommand, AnOutlierIsLeftOutWhereverItStands) {
        {"stranger.yaml a.yaml b.yaml", "a.yaml stranger.yaml b.yaml", "unknown.yaml a.yaml b.yaml one_cell.yaml"}) {
     const Ended result = run("merge " + files + " -o out --json");
     ASSERT_EQ(result.status, 0) << files << result.err;
-    const json report = result.answer();
+    const json report = answer_of(result);
     EXPECT_EQ(report, json::parse(content_of(folder / "out/report.json")));
     std::set<std::string> merged;
     std::set<std::string> left_out;
@@ -340,23 +317,23 @@ TEST_F(MergeCommand, WritesNothingWhereNothingMerges) {
   EXPECT_FALSE(fs::exists(folder / "new"));
   const Ended as_json = run("merge a.yaml stranger.yaml -o new/out --json");
   EXPECT_EQ(as_json.status, 3);
-  EXPECT_EQ(as_json.answer().at("status"), "not_merged");
-  EXPECT_EQ(as_json.answer().at("written"), false);
-  EXPECT_TRUE(as_json.answer().at("islands").empty());
-  EXPECT_EQ(as_json.answer().at("left_out").size(), 2U);
+  EXPECT_EQ(answer_of(as_json).at("status"), "not_merged");
+  EXPECT_EQ(answer_of(as_json).at("written"), false);
+  EXPECT_TRUE(answer_of(as_json).at("islands").empty());
+  EXPECT_EQ(answer_of(as_json).at("left_out").size(), 2U);
 }
 
 TEST_F(MergeCommand, CtrlCLeavesNothingBehind) {
   const Ended result = interrupted("merge a.yaml b.yaml -o out --json");
   EXPECT_EQ(result.status, 3) << result.err;
-  EXPECT_EQ(result.answer().at("stopped"), true);
-  EXPECT_EQ(result.answer().at("written"), false);
+  EXPECT_EQ(answer_of(result).at("stopped"), true);
+  EXPECT_EQ(answer_of(result).at("written"), false);
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
 TEST_F(MergeCommand, KeepsAnOlderResultUntilThereIsANewOne) {
   fs::create_directory(folder / "kept");
-  write(folder / "kept/merged.yaml", "old");
+  write_text(folder / "kept/merged.yaml", "old");
   EXPECT_EQ(run("merge a.yaml stranger.yaml -o kept").status, 3);
   EXPECT_EQ(content_of(folder / "kept/merged.yaml"), "old");
   EXPECT_THAT(names_in(folder / "kept"), ElementsAre("merged.yaml"));
@@ -378,14 +355,14 @@ TEST_F(EvaluateCommand, TellsTheFiguresOfOnePose) {
   const Ended wrong = run("evaluate a.yaml b.yaml --json --pose=2,2,2");
   EXPECT_EQ(right.status, 0);
   EXPECT_EQ(wrong.status, 3);
-  const json good = right.answer().at("figures");
-  const json bad = wrong.answer().at("figures");
+  const json good = answer_of(right).at("figures");
+  const json bad = answer_of(wrong).at("figures");
   EXPECT_GT(good.at("evidence_m"), bad.at("evidence_m"));
   EXPECT_GT(good.at("acceptance_index"), bad.at("acceptance_index"));
-  EXPECT_LT(std::abs(transform_of(right.answer()).x_m - pair.target_from_source.x_m), 1e-3) << "it is not refined";
+  EXPECT_LT(std::abs(transform_of(answer_of(right)).x_m - pair.target_from_source.x_m), 1e-3) << "it is not refined";
   const Ended words = run("evaluate a.yaml b.yaml --pose=2,2,2");
   EXPECT_THAT(words.out, AllOf(HasSubstr("Figures\n"), HasSubstr("acceptance_index"), HasSubstr("Why\n")));
-  EXPECT_EQ(run("evaluate a.yaml unknown.yaml --pose=0,0,0 --json").answer().at("status"), "declined");
+  EXPECT_EQ(answer_of(run("evaluate a.yaml unknown.yaml --pose=0,0,0 --json")).at("status"), "declined");
 }
 
 TEST_F(InspectCommand, WritesThePicturesAndAPageThatShowsThem) {
@@ -446,17 +423,17 @@ TEST_F(InspectCommand, RefusesWhatItCannotDo) {
 
 TEST_F(PluginArgument, AddsAMethodToEveryCommandThatKnowsMethods) {
   const std::string plugin = " --plugin '" GRIDMERGE_CENTROID "'";
-  const json methods = run("methods --json" + plugin).answer();
+  const json methods = answer_of(run("methods --json" + plugin));
   EXPECT_EQ(methods.size(), all_methods().entries().size() + 1);
   EXPECT_EQ(methods.back().at("name"), "centroid");
   EXPECT_THAT(run("methods centroid" + plugin).out, HasSubstr("climb: true"));
 
   const Ended aligned = run("align a.yaml b.yaml --json --method centroid --set centroid.climb=true" + plugin);
   EXPECT_EQ(aligned.status, 0) << aligned.err;
-  EXPECT_EQ(aligned.answer().at("method"), "centroid");
-  EXPECT_EQ(aligned.answer().at("plugins").size(), 1U);
-  EXPECT_EQ(aligned.answer().at("options").at("centroid").at("climb"), true);
-  EXPECT_LT(pose_error(pair, transform_of(aligned.answer())).distance_m, 0.1);
+  EXPECT_EQ(answer_of(aligned).at("method"), "centroid");
+  EXPECT_EQ(answer_of(aligned).at("plugins").size(), 1U);
+  EXPECT_EQ(answer_of(aligned).at("options").at("centroid").at("climb"), true);
+  EXPECT_LT(pose_error(pair, transform_of(answer_of(aligned))).distance_m, 0.1);
 
   EXPECT_EQ(run("merge a.yaml b.yaml -o out --method centroid" + plugin).status, 0);
   EXPECT_EQ(run("inspect centroid a.yaml b.yaml -o out" + plugin).status, 0);
@@ -464,7 +441,7 @@ TEST_F(PluginArgument, AddsAMethodToEveryCommandThatKnowsMethods) {
   fs::remove_all(folder / "out");
   EXPECT_EQ(run("evaluate a.yaml b.yaml --pose=2,2,2" + plugin).status, 3);
 
-  write(folder / "mine.yaml", "method: centroid\ncentroid: {climb: false}\n");
+  write_text(folder / "mine.yaml", "method: centroid\ncentroid: {climb: false}\n");
   EXPECT_EQ(run("check-config mine.yaml" + plugin).out, "ok\n");
   EXPECT_THAT(refusal(1, "check-config mine.yaml"), HasSubstr("mine.yaml:1: method = 'centroid' is not known"));
   fs::remove(folder / "mine.yaml");
@@ -474,21 +451,21 @@ TEST_F(PluginArgument, MayStandInTheConfigurationFileRelativeToIt) {
   fs::create_directories(folder / "deep");
   fs::create_symlink(GRIDMERGE_CENTROID, folder / "deep/mine.so");
   for (const std::string plugins : {"plugins: [mine.so]", "plugins: mine.so", "plugins:\n  - ./mine.so\n  - mine.so"}) {
-    write(folder / "deep/mine.yaml", plugins + "\nmethod: centroid\n");
+    write_text(folder / "deep/mine.yaml", plugins + "\nmethod: centroid\n");
     const Ended result = run("config --config deep/mine.yaml");
     ASSERT_EQ(result.status, 0) << plugins << result.err;
     EXPECT_THAT(result.out,
                 AllOf(HasSubstr("method: centroid\n"), HasSubstr("plugins:\n  - "), HasSubstr("climb: true")));
-    write(folder / "whole.yaml", result.out);
+    write_text(folder / "whole.yaml", result.out);
     EXPECT_EQ(run("config --config whole.yaml").out, result.out) << "it reads back the same";
     EXPECT_EQ(run("config --config whole.yaml --plugin deep/mine.so").out, result.out) << "named twice, taken once";
   }
   EXPECT_THAT(refusal(1, "config --config deep/mine.yaml --set centroid.magic=1 --plugin nowhere.so"),
               HasSubstr("nowhere.so: does not exist"));
-  write(folder / "deep/mine.yaml", "plugins: [nowhere.so]\n");
+  write_text(folder / "deep/mine.yaml", "plugins: [nowhere.so]\n");
   EXPECT_THAT(refusal(1, "check-config deep/mine.yaml"),
               AllOf(HasSubstr("deep/mine.yaml: plugins: "), HasSubstr("deep/nowhere.so: does not exist")));
-  write(folder / "deep/mine.yaml", "plugins: {a: b}\n");
+  write_text(folder / "deep/mine.yaml", "plugins: {a: b}\n");
   EXPECT_THAT(refusal(1, "check-config deep/mine.yaml"), HasSubstr("'plugins' must have a single value, or a list"));
   fs::remove(folder / "whole.yaml");
   fs::remove_all(folder / "deep");
@@ -503,7 +480,7 @@ TEST_F(PluginArgument, RefusesWhatIsNoPlugin) {
 }
 
 TEST_F(MethodsCommand, ListsEveryMethodWithItsOptions) {
-  const json all = run("methods --json").answer();
+  const json all = answer_of(run("methods --json"));
   const MethodRegistry registry = all_methods();
   ASSERT_EQ(all.size(), registry.entries().size());
   const std::string docs = run("methods --markdown").out;
@@ -547,7 +524,7 @@ TEST_F(ConfigCommand, EveryShippedFileLoads) {
 TEST_F(ConfigCommand, PrintsWhatReadsBackTheSame) {
   const std::string changed = run("config --set verdict.min_lead=0.33 --seed 5 --profile paper").out;
   EXPECT_THAT(changed, AllOf(HasSubstr("min_lead: 0.33\n"), HasSubstr("seed: 5\n"), HasSubstr("profile: paper\n")));
-  write(folder / "changed.yaml", changed);
+  write_text(folder / "changed.yaml", changed);
   EXPECT_EQ(run("config --config changed.yaml").out, changed);
   EXPECT_THAT(run("config --config changed.yaml --seed 6 --profile paper").out, HasSubstr("seed: 6\n"))
       << "the command line wins";
@@ -563,14 +540,14 @@ TEST_F(ConfigCommand, WritesTheShippedFiles) {
 }
 
 TEST_F(ConfigCommand, CheckConfigTellsEveryProblemWithItsLine) {
-  write(folder / "bad.yaml",
-        "method: genetic\n"
-        "threads: many\n"
-        "genetic:\n"
-        "  population: 3\n"
-        "  populaton: 30\n"
-        "verdict: {min_lead: 0.1, min_lead: 0.2}\n"
-        "judge: {}\n");
+  write_text(folder / "bad.yaml",
+             "method: genetic\n"
+             "threads: many\n"
+             "genetic:\n"
+             "  population: 3\n"
+             "  populaton: 30\n"
+             "verdict: {min_lead: 0.1, min_lead: 0.2}\n"
+             "judge: {}\n");
   const std::string told = refusal(1, "check-config bad.yaml");
   EXPECT_THAT(told,
               AllOf(HasSubstr("bad.yaml:2: threads = 'many' is not a whole number"),
@@ -579,14 +556,14 @@ TEST_F(ConfigCommand, CheckConfigTellsEveryProblemWithItsLine) {
                     HasSubstr("bad.yaml:6: repeated key 'min_lead'"),
                     HasSubstr("bad.yaml:7: unknown key 'judge'; known keys: plugins, method, profile, seed, threads, "
                               "genetic, pipeline, prepare, refine, evaluator, verdict, fuse")));
-  write(folder / "bad.yaml", "method: magic\n");
+  write_text(folder / "bad.yaml", "method: magic\n");
   EXPECT_THAT(refusal(1, "check-config bad.yaml"),
               HasSubstr("bad.yaml:1: method = 'magic' is not known; known: genetic"));
-  write(folder / "bad.yaml", "profile: golden\n");
+  write_text(folder / "bad.yaml", "profile: golden\n");
   EXPECT_THAT(refusal(1, "check-config bad.yaml"), HasSubstr("profile = 'golden' is not known; known: default"));
-  write(folder / "bad.yaml", "prepare: {free_percent: 70, occupied_percent: 60}\n");
+  write_text(folder / "bad.yaml", "prepare: {free_percent: 70, occupied_percent: 60}\n");
   EXPECT_THAT(refusal(1, "check-config bad.yaml"), HasSubstr("free_percent must lie below occupied_percent"));
-  write(folder / "bad.yaml", "a: b: c\n");
+  write_text(folder / "bad.yaml", "a: b: c\n");
   EXPECT_THAT(refusal(1, "align a.yaml b.yaml --config bad.yaml"), HasSubstr("bad.yaml:1: is not YAML"));
   fs::remove(folder / "bad.yaml");
   EXPECT_THAT(refusal(1, "check-config bad.yaml"), HasSubstr("bad.yaml: does not exist"));
@@ -643,12 +620,8 @@ TEST_F(CommandLine, EveryWrongSettingIsToldAtOnce) {
                           HasSubstr("--set magic.x=1: unknown section 'magic'; known sections: genetic, pipeline, "),
                           HasSubstr("--set seed=4: must be SECTION.KEY=VALUE"),
                           HasSubstr("'verdict.min_lead' is given twice")));
-  EXPECT_EQ(run("align a.yaml b.yaml --json --set genetic.population=500")
-                .answer()
-                .at("options")
-                .at("genetic")
-                .at("population"),
-            500);
+  const json answer = answer_of(run("align a.yaml b.yaml --json --set genetic.population=500"));
+  EXPECT_EQ(answer.at("options").at("genetic").at("population"), 500);
 }
 
 TEST_F(BadInput, WrongMapFilesAreNamedWithTheRuleTheyBreak) {
@@ -666,10 +639,10 @@ TEST_F(BadInput, WrongMapFilesAreNamedWithTheRuleTheyBreak) {
     std::string yaml;
     std::string told;
   };
-  write(folder / "cut.pgm", image.substr(0, image.size() / 2));
-  write(folder / "huge.pgm", "P5\n1000000000 1000000000\n255\n");
-  write(folder / "words.pgm", "this is no image");
-  write(folder / "empty.pgm", "");
+  write_text(folder / "cut.pgm", image.substr(0, image.size() / 2));
+  write_text(folder / "huge.pgm", "P5\n1000000000 1000000000\n255\n");
+  write_text(folder / "words.pgm", "this is no image");
+  write_text(folder / "empty.pgm", "");
   for (const Case& one :
        {Case{with("image", "nowhere.pgm"), "nowhere.pgm"}, Case{with("image", "cut.pgm"), "cut.pgm"},
         Case{with("image", "huge.pgm"), "huge.pgm"}, Case{with("image", "words.pgm"), "words.pgm"},
@@ -677,7 +650,7 @@ TEST_F(BadInput, WrongMapFilesAreNamedWithTheRuleTheyBreak) {
         Case{with("resolution", "-.inf"), "resolution"}, Case{with("origin", "[.nan, 0, 0]"), "origin"},
         Case{with("origin", "[0, 0]"), "origin"}, Case{with("mode", "magic"), "mode"}, Case{"just words", "bad.yaml"},
         Case{"a: [1, 2", "bad.yaml"}, Case{"", "image"}, Case{std::string(64, '\0'), "bad.yaml"}}) {
-    write(folder / "bad.yaml", one.yaml);
+    write_text(folder / "bad.yaml", one.yaml);
     for (const std::string arguments : {"align bad.yaml b.yaml --json", "align a.yaml bad.yaml",
                                         "merge a.yaml bad.yaml -o out", "evaluate a.yaml bad.yaml --pose=0,0,0"}) {
       const std::string told = refusal(1, arguments);
@@ -698,7 +671,7 @@ TEST_F(BadInput, MapsThatShowNothingAreDeclined) {
     for (const std::string& files : {"a.yaml " + map, map + " a.yaml", map + " " + map}) {
       const Ended result = run("align --json " + files);
       EXPECT_EQ(result.status, 3) << files << result.err;
-      const json answer = result.answer();
+      const json answer = answer_of(result);
       EXPECT_EQ(answer.at("status"), "declined") << files;
       EXPECT_TRUE(answer.at("transform").is_null());
       EXPECT_TRUE(answer.at("covariance").is_null());
@@ -710,7 +683,7 @@ TEST_F(BadInput, MapsThatShowNothingAreDeclined) {
   for (const std::string files : {"a.yaml one_cell.yaml", "one_cell.yaml a.yaml", "one_cell.yaml one_cell.yaml"}) {
     const Ended result = run("align --json " + files);
     EXPECT_EQ(result.status, 3) << files << result.err;
-    EXPECT_NE(result.answer().at("status"), "merged");
+    EXPECT_NE(answer_of(result).at("status"), "merged");
   }
 }
 
@@ -726,7 +699,7 @@ TEST_F(BadInput, AFileNameMayHoldAnyByte) {
   fs::copy(folder / "b.yaml", folder / "b\xff'.yaml");
   const Ended result = run("align a.yaml \"b\xff'.yaml\" --json");
   EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(result.answer().at("source"), "b\xef\xbf\xbd'.yaml");
+  EXPECT_EQ(answer_of(result).at("source"), "b\xef\xbf\xbd'.yaml");
   fs::remove(folder / "b\xff'.yaml");
 }
 

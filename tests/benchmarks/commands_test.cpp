@@ -1,19 +1,16 @@
 /// `gridmerge simulate`, `convert` and `study` as the user meets them: most cases run the program as a process.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "commands/pair_again.hpp"
 #include "manifest/manifest.hpp"
 #include "map_server/map_files.hpp"
 #include "study/journal.hpp"
 #include "study/rows_csv.hpp"
+#include "support/shell.hpp"
 
 namespace gridmerge::cli {
 namespace {
@@ -26,21 +23,6 @@ using ::testing::SizeIs;
 using ::testing::StartsWith;
 using ::testing::StrCaseEq;
 
-std::string content_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
-void write(const fs::path& file, const std::string& content) { std::ofstream(file, std::ios::binary) << content; }
-
-struct Ended {
-  int status = -1;
-  std::string out;
-  std::string err;
-};
-
 /// Runs words of a shell in the folder of the test, with the program on the path.
 class Commands : public ::testing::Test {
  protected:
@@ -49,16 +31,12 @@ class Commands : public ::testing::Test {
     folder_ = fs::path(::testing::TempDir()) / (std::string("Commands.") + test->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);
-    write(folder_ / "tiny.yaml", kTiny);
+    write_text(folder_ / "tiny.yaml", kTiny);
   }
   void TearDown() override { fs::remove_all(folder_); }
 
   [[nodiscard]] Ended shell(const std::string& words) const {
-    const std::string command = "cd '" + folder_.string() + "' && PATH='" +
-                                fs::path(GRIDMERGE_PROGRAM).parent_path().string() + "':$PATH && { " + words +
-                                "; } >.out 2>.err </dev/null";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(folder_ / ".out"), content_of(folder_ / ".err")};
+    return run_in(folder_, "PATH='" + fs::path(GRIDMERGE_PROGRAM).parent_path().string() + "':$PATH; " + words);
   }
   [[nodiscard]] std::vector<study::Row> rows(const std::string& study_folder) const {
     return study::read_rows_csv(folder_ / study_folder / "rows.csv");
@@ -121,7 +99,7 @@ TEST_F(Commands, SimulateRefusesWhatIsOutOfRange) {
 
 TEST_F(Commands, ConvertReadsCarpinsGrids) {
   fs::create_directories(folder_ / "in");
-  write(folder_ / "in/robot0.txt", "0 0 0\n0 255 127\n0 255 127\n");
+  write_text(folder_ / "in/robot0.txt", "0 0 0\n0 255 127\n0 255 127\n");
   const Ended ended = shell("gridmerge convert carpin in -o out");
   ASSERT_EQ(ended.status, 0) << ended.err;
   const OccupancyGrid map = read_map(folder_ / "out/robot0.yaml");
@@ -207,12 +185,13 @@ TEST_F(Commands, AComparisonWithItselfIsNoWorse) {
   for (study::Row& row : worse) {
     row.result = row.result == "right" ? "missed" : row.result;
   }
-  write(folder_ / "worse.csv", study::to_csv(worse));
+  write_text(folder_ / "worse.csv", study::to_csv(worse));
   EXPECT_EQ(shell("gridmerge study compare --before out/rows.csv --after worse.csv").status, 3);
 }
 
 TEST_F(Commands, StudyNamesEveryMistake) {
-  write(folder_ / "wrong.yaml", "name: wrong\nmethods: [genetics]\ndata:\n  - scenes: {kind: castle}\nwibble: 1\n");
+  write_text(folder_ / "wrong.yaml",
+             "name: wrong\nmethods: [genetics]\ndata:\n  - scenes: {kind: castle}\nwibble: 1\n");
   const Ended ended = shell("gridmerge study wrong.yaml -o out");
   EXPECT_EQ(ended.status, 1);
   EXPECT_THAT(ended.err, AllOf(HasSubstr("wrong.yaml:2"), HasSubstr("genetics"), HasSubstr("wrong.yaml:4"),
