@@ -74,6 +74,13 @@ def wait_until_shown(browser):
     raise AssertionError("the page was never shown")
 
 
+def wait_for(condition):
+    for _ in range(200):
+        if condition():
+            return
+        time.sleep(0.05)
+
+
 def wilson(successes, n):
     z, p = 1.959964, successes / n
     middle = (p + z * z / (2 * n)) / (1 + z * z / n)
@@ -193,6 +200,7 @@ class PageInABrowser(unittest.TestCase):
 
     def test_numbers_behind_a_chart_say_what_the_rows_say(self):
         self.click(self.one("#success-by-set details summary"))
+        wait_for(lambda: self.cells("#success-by-set"))  # a browser tells of the opening a little later
         shown = {(line[0], line[1]): line[2:] for line in self.cells("#success-by-set")}
         expected = {}
         for row in self.pairs:
