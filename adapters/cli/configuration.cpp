@@ -5,11 +5,11 @@
 #include <set>
 #include <stdexcept>
 #include <system_error>
-#include <thread>
 
 #include "cli/usage_error.hpp"
 #include "config/config_file.hpp"
 #include "gridmerge/base/error.hpp"
+#include "gridmerge/base/parallel.hpp"
 #include "plugin/plugin_loader.hpp"
 
 namespace gridmerge::cli {
@@ -158,10 +158,7 @@ Configuration::Configuration(const MethodRegistry& built_in, const Configuration
   }
 }
 
-int Configuration::threads() const {
-  const int all = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  return run_.threads == 0 ? all : run_.threads;
-}
+int Configuration::threads() const { return run_.threads == 0 ? available_threads() : run_.threads; }
 
 std::vector<Configuration::Section> Configuration::sections() {
   return {{method_, "The method: proposes poses.", method_config_->options()},

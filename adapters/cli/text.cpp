@@ -1,6 +1,5 @@
 #include "cli/text.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 
@@ -10,11 +9,6 @@ std::string fixed(double value, int digits) {
   char text[400];  // the longest double has 309 digits before the point
   std::snprintf(text, sizeof text, "%.*f", digits, value);
   return text;
-}
-
-std::string exact(double value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
 std::string pose_text(const Pose2& pose) {

@@ -5,13 +5,12 @@
 #include <vector>
 
 #include "gridmerge/align/pipeline.hpp"
+#include "gridmerge/base/number_text.hpp"
 
 namespace gridmerge::cli {
 
 /// With so many digits behind the point.
 [[nodiscard]] std::string fixed(double value, int digits);
-/// The shortest text that reads back as the same number.
-[[nodiscard]] std::string exact(double value);
 /// "x 1.234 m, y -0.500 m, theta 1.5708 rad (90.00 deg)"
 [[nodiscard]] std::string pose_text(const Pose2& pose);
 /// "0.012 m, 0.010 m, 0.05 deg" along x, y and theta; "not known".

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -13,9 +14,6 @@
 
 namespace gridmerge {
 namespace {
-
-/// Deeper entries are never asked for, and leaving them out keeps a document of nested aliases small.
-constexpr int kDepth = 2;
 
 std::string place(const std::string& file, int line) { return line > 0 ? file + ":" + std::to_string(line) : file; }
 
@@ -42,45 +40,65 @@ bool holds_another_document(const std::string& text) {
   return parser.HandleNextDocument(handler) && parser.HandleNextDocument(handler);
 }
 
-std::vector<YamlEntry> children_of(const YAML::Node& parent, int depth, const std::string& file);
+/// How much of a document is kept: nested aliases make a small file unfold to a huge tree.
+struct Limits {
+  int depth = 0;
+  int entries = 0;
+  bool refuse_deeper = false;  ///< otherwise what lies deeper is left out
+};
+/// Of a configuration, deeper entries are never asked for.
+constexpr Limits kMappingLimits = {.depth = 2, .entries = std::numeric_limits<int>::max(), .refuse_deeper = false};
+constexpr Limits kTreeLimits = {.depth = 16, .entries = 200000, .refuse_deeper = true};
 
-YamlEntry entry_of(const YAML::Node& node, int depth, const std::string& file) {
-  YamlEntry entry;
-  entry.line = line_of(node.Mark());
-  if (node.IsScalar()) {
-    entry.kind = YamlEntry::Kind::kScalar;
-    entry.text = node.Scalar();
-  } else if (node.IsSequence() || node.IsMap()) {
-    entry.kind = node.IsMap() ? YamlEntry::Kind::kMapping : YamlEntry::Kind::kSequence;
-    entry.children = children_of(node, depth - 1, file);
-  }
-  return entry;
-}
+class TreeReader {
+ public:
+  TreeReader(const std::string& file, const Limits& limits) : file_(file), limits_(limits) {}
 
-std::vector<YamlEntry> children_of(const YAML::Node& parent, int depth, const std::string& file) {
-  std::vector<YamlEntry> children;
-  if (depth == 0) {
+  /// @param depth  of the children, from 1
+  std::vector<YamlEntry> children_of(const YAML::Node& parent, int depth) {
+    std::vector<YamlEntry> children;
+    if (depth > limits_.depth && !limits_.refuse_deeper) {
+      return children;
+    }
+    for (const auto& child : parent) {
+      if (!parent.IsMap()) {
+        children.push_back(entry_of(child, depth));
+        continue;
+      }
+      const YAML::Node key = child.first;
+      if (!key.IsScalar()) {
+        throw InputError(place(file_, line_of(key.Mark())), "a key must be a single word");
+      }
+      children.push_back(entry_of(child.second, depth));
+      children.back().key = key.Scalar();
+      children.back().line = line_of(key.Mark());
+    }
     return children;
   }
-  for (const auto& child : parent) {
-    if (!parent.IsMap()) {
-      children.push_back(entry_of(child, depth, file));
-      continue;
+
+ private:
+  YamlEntry entry_of(const YAML::Node& node, int depth) {
+    YamlEntry entry;
+    entry.line = line_of(node.Mark());
+    if (++entries_ > limits_.entries || depth > limits_.depth) {
+      throw InputError(place(file_, entry.line), "holds too much, or nests too deep");
     }
-    const YAML::Node key = child.first;
-    if (!key.IsScalar()) {
-      throw InputError(place(file, line_of(key.Mark())), "a key must be a single word");
+    if (node.IsScalar()) {
+      entry.kind = YamlEntry::Kind::kScalar;
+      entry.text = node.Scalar();
+    } else if (node.IsSequence() || node.IsMap()) {
+      entry.kind = node.IsMap() ? YamlEntry::Kind::kMapping : YamlEntry::Kind::kSequence;
+      entry.children = children_of(node, depth + 1);
     }
-    children.push_back(entry_of(child.second, depth, file));
-    children.back().key = key.Scalar();
-    children.back().line = line_of(key.Mark());
+    return entry;
   }
-  return children;
-}
 
-}  // namespace
+  const std::string& file_;
+  Limits limits_;
+  int entries_ = 0;
+};
 
-std::vector<YamlEntry> parse_yaml_mapping(std::string_view text, const std::string& file) {
+std::vector<YamlEntry> parse(std::string_view text, const std::string& file, const Limits& limits) {
   try {
     const YAML::Node document = YAML::Load(std::string(text));
     if (holds_another_document(std::string(text))) {
@@ -92,10 +110,26 @@ std::vector<YamlEntry> parse_yaml_mapping(std::string_view text, const std::stri
     if (!document.IsMap()) {
       throw InputError(file, "is not a YAML mapping (lines of 'key: value')");
     }
-    return children_of(document, kDepth, file);
+    return TreeReader(file, limits).children_of(document, 1);
   } catch (const YAML::Exception& error) {
     throw InputError(place(file, line_of(error.mark)), "is not YAML: " + error.msg);
   }
+}
+
+}  // namespace
+
+std::vector<YamlEntry> parse_yaml_mapping(std::string_view text, const std::string& file) {
+  return parse(text, file, kMappingLimits);
+}
+
+std::vector<YamlEntry> parse_yaml_tree(std::string_view text, const std::string& file) {
+  return parse(text, file, kTreeLimits);
+}
+
+const YamlEntry* find_entry(const std::vector<YamlEntry>& entries, std::string_view key) {
+  const auto found =
+      std::find_if(entries.begin(), entries.end(), [&](const YamlEntry& entry) { return entry.key == key; });
+  return found == entries.end() ? nullptr : &*found;
 }
 
 std::string lower_case(std::string text) {

@@ -16,13 +16,20 @@ struct YamlEntry {
   int line = 0;  ///< from 1
   Kind kind = Kind::kEmpty;
   std::string text;                 ///< of a scalar
-  std::vector<YamlEntry> children;  ///< of a top-level sequence or mapping; what lies deeper is not kept
+  std::vector<YamlEntry> children;  ///< of a sequence or mapping; parse_yaml_mapping keeps those of the top level
 };
 
 /// The entries of a document that is one mapping, in the order written, repeated keys included. An empty document has
 /// none.
 /// @throws InputError naming file and line, if the text is not YAML, or not one mapping with plain keys.
 [[nodiscard]] std::vector<YamlEntry> parse_yaml_mapping(std::string_view text, const std::string& file);
+
+/// The same with everything below the top level too, for files that nest deeper than a configuration.
+/// @throws InputError naming file and line, also for a document that unfolds to more than a person would write
+[[nodiscard]] std::vector<YamlEntry> parse_yaml_tree(std::string_view text, const std::string& file);
+
+/// The entry of that key; null where there is none.
+[[nodiscard]] const YamlEntry* find_entry(const std::vector<YamlEntry>& entries, std::string_view key);
 
 /// The text as YAML would write it: quoted where a reader could take it for something else than this text.
 [[nodiscard]] std::string yaml_word(const std::string& text);

@@ -12,6 +12,7 @@
 #include "config/read_file.hpp"
 #include "config/yaml_text.hpp"
 #include "gridmerge/base/error.hpp"
+#include "gridmerge/base/number_text.hpp"
 
 namespace gridmerge {
 namespace {
@@ -36,12 +37,6 @@ std::optional<double> finite_number(std::string_view text) {
     return std::nullopt;
   }
   return number;
-}
-
-/// The shortest text that reads back as the same number.
-std::string number_text(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
 /// The value as a message shows it.
@@ -83,12 +78,12 @@ class DescriptionReader {
     if (const YamlEntry* entry = required("origin"); entry != nullptr) {
       map.map_from_grid = origin(*entry);
     }
-    if (const YamlEntry* entry = find("negate"); entry != nullptr) {
+    if (const YamlEntry* entry = find_entry(entries_, "negate"); entry != nullptr) {
       const std::string text = lower_case(entry->text);
       map.negate = text == "1" || text == "true";
       demand(map.negate || text == "0" || text == "false", *entry, "must be 0, 1, true or false");
     }
-    if (const YamlEntry* entry = find("mode"); entry != nullptr) {
+    if (const YamlEntry* entry = find_entry(entries_, "mode"); entry != nullptr) {
       const auto mode = std::find(kModeNames.begin(), kModeNames.end(), lower_case(entry->text));
       const bool is_mode = mode != kModeNames.end();
       demand(is_mode, *entry, "must be trinary, scale or raw");
@@ -97,22 +92,18 @@ class DescriptionReader {
     map.occupied_thresh = share("occupied_thresh", map.occupied_thresh);
     map.free_thresh = share("free_thresh", map.free_thresh);
     if (map.free_thresh > map.occupied_thresh) {
-      const YamlEntry* entry = find("free_thresh") != nullptr ? find("free_thresh") : find("occupied_thresh");
-      problems_.add(entry->line, "free_thresh = " + number_text(map.free_thresh) +
-                                     " must not exceed occupied_thresh = " + number_text(map.occupied_thresh));
+      const YamlEntry* entry = find_entry(entries_, "free_thresh");
+      entry = entry != nullptr ? entry : find_entry(entries_, "occupied_thresh");
+      problems_.add(entry->line, "free_thresh = " + exact(map.free_thresh) +
+                                     " must not exceed occupied_thresh = " + exact(map.occupied_thresh));
     }
     problems_.throw_if_any();
     return map;
   }
 
  private:
-  const YamlEntry* find(const std::string& key) const {
-    const auto entry = std::find_if(entries_.begin(), entries_.end(), [&](const auto& e) { return e.key == key; });
-    return entry == entries_.end() ? nullptr : &*entry;
-  }
-
   const YamlEntry* required(const std::string& key) {
-    const YamlEntry* entry = find(key);
+    const YamlEntry* entry = find_entry(entries_, key);
     if (entry == nullptr) {
       problems_.add(0, "key '" + key + "' is missing");
     }
@@ -138,7 +129,7 @@ class DescriptionReader {
   }
 
   double share(const std::string& key, double otherwise) {
-    const YamlEntry* entry = find(key);
+    const YamlEntry* entry = find_entry(entries_, key);
     if (entry == nullptr) {
       return otherwise;
     }
@@ -155,10 +146,9 @@ class DescriptionReader {
 std::string yaml_text(const MapDescription& map) {
   const Pose2& origin = map.map_from_grid;
   return "image: " + yaml_word(map.image) + "\nmode: " + kModeNames[static_cast<std::size_t>(map.mode)] +
-         "\nresolution: " + number_text(map.resolution_m) + "\norigin: [" + number_text(origin.x_m) + ", " +
-         number_text(origin.y_m) + ", " + number_text(origin.theta_rad) + "]\nnegate: " + (map.negate ? "1" : "0") +
-         "\noccupied_thresh: " + number_text(map.occupied_thresh) + "\nfree_thresh: " + number_text(map.free_thresh) +
-         "\n";
+         "\nresolution: " + exact(map.resolution_m) + "\norigin: [" + exact(origin.x_m) + ", " + exact(origin.y_m) +
+         ", " + exact(origin.theta_rad) + "]\nnegate: " + (map.negate ? "1" : "0") +
+         "\noccupied_thresh: " + exact(map.occupied_thresh) + "\nfree_thresh: " + exact(map.free_thresh) + "\n";
 }
 
 // --- pixels and cells ------------------------------------------------------------------------------------------------

@@ -3,12 +3,12 @@
 #include <functional>
 #include <memory>
 #include <ostream>
-#include <thread>
 
 #include "cli/output_folder.hpp"
 #include "cli/usage_error.hpp"
 #include "commands/commands.hpp"
 #include "commands/option_arguments.hpp"
+#include "gridmerge/base/parallel.hpp"
 #include "manifest/carpin.hpp"
 #include "manifest/folder_conversion.hpp"
 #include "manifest/halmstad.hpp"
@@ -23,8 +23,6 @@ struct ConvertArguments {
   CarpinOptions carpin;
   FolderPairOptions pairs;
 };
-
-int cores() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
 
 using Convert = std::function<Conversion(const ConvertArguments&)>;
 
@@ -74,7 +72,8 @@ Command convert_command(const CommandContext& context) {
             if (halmstad->parsed()) {
               check_options(arguments->halmstad, "convert halmstad");
               return run_convert(
-                  *arguments, [](const auto& a) { return convert_halmstad(a.path, a.folder, a.halmstad, cores()); },
+                  *arguments,
+                  [](const auto& a) { return convert_halmstad(a.path, a.folder, a.halmstad, available_threads()); },
                   out);
             }
             if (carpin->parsed()) {
@@ -84,7 +83,8 @@ Command convert_command(const CommandContext& context) {
             }
             check_options(arguments->pairs, "convert folder");
             return run_convert(
-                *arguments, [](const auto& a) { return convert_folder(a.path, a.folder, a.pairs, cores()); }, out);
+                *arguments,
+                [](const auto& a) { return convert_folder(a.path, a.folder, a.pairs, available_threads()); }, out);
           }};
 }
 

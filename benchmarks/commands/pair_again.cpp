@@ -6,8 +6,8 @@
 #include <type_traits>
 #include <variant>
 
-#include "cli/text.hpp"
 #include "gridmerge/base/error.hpp"
+#include "gridmerge/base/number_text.hpp"
 #include "map_server/map_files.hpp"
 #include "worlds/scene.hpp"
 #include "worlds/swarm.hpp"
@@ -104,7 +104,8 @@ page::PairMaps maps_again(const study::Row& row) {
   if (const auto scene = spec.find("scene"); scene != spec.end()) {
     const worlds::SceneOptions options = scene_of(row, *scene);
     worlds::MapPair pair = make_scene(options);
-    return {std::move(pair.target), std::move(pair.source), tracks_of(options)};
+    worlds::Tracks tracks = tracks_of(options, pair);
+    return {std::move(pair.target), std::move(pair.source), std::move(tracks)};
   }
   if (const auto swarm = spec.find("swarm"); swarm != spec.end()) {
     worlds::Swarm drawn = make_swarm(scene_of(row, *swarm), row.robots);

@@ -4,14 +4,15 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <stdexcept>
-#include <thread>
 
 #include "cli/output_folder.hpp"
 #include "cli/text.hpp"
 #include "cli/usage_error.hpp"
 #include "commands/commands.hpp"
 #include "commands/option_arguments.hpp"
-#include "gridmerge/grid/prepared_map.hpp"
+#include "gridmerge/base/number_text.hpp"
+#include "gridmerge/base/parallel.hpp"
+#include "manifest/known_area.hpp"
 #include "manifest/manifest.hpp"
 #include "map_server/map_files.hpp"
 #include "worlds/scene.hpp"
@@ -31,8 +32,6 @@ struct SimulateArguments {
   double tolerance_m = 0.5;
   double tolerance_deg = 3;
 };
-
-int cores() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
 
 WriteOptions format_of(const worlds::SceneOptions& scene) {
   return {.mode = scene.probabilistic ? MapMode::kRaw : MapMode::kTrinary, .format = ImageFormat::kPgm};
@@ -72,7 +71,7 @@ void check_scene(const worlds::SceneOptions& scene) {
 /// @throws UsageError for what only pairs have
 worlds::Swarm swarm_of(const SimulateArguments& arguments) {
   try {
-    return make_swarm(arguments.scene, arguments.robots, cores());
+    return make_swarm(arguments.scene, arguments.robots, available_threads());
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
@@ -90,7 +89,7 @@ ManifestPair listed(const SimulateArguments& arguments, const worlds::SceneOptio
                       .scenario = scene.kind};
   row.tags = scene.kind + " " + scene.relation;
   row.overlap = pair.overlap;
-  row.source_centre = PreparedMap(pair.source, pair.source.geometry.resolution_m).centre_in_map();
+  row.source_centre = centre_of_known(pair.source);
   if (pair.truth_is_same) {
     row.truth = {.target_from_source = pair.target_from_source,
                  .tolerance_m = arguments.tolerance_m,

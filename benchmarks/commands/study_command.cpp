@@ -4,7 +4,6 @@
 #include <cmath>
 #include <memory>
 #include <ostream>
-#include <thread>
 
 #include "cli/interrupt.hpp"
 #include "cli/output_folder.hpp"
@@ -13,6 +12,7 @@
 #include "cli/watch.hpp"
 #include "commands/commands.hpp"
 #include "commands/pair_again.hpp"
+#include "gridmerge/base/parallel.hpp"
 #include "map_server/whole_files.hpp"
 #include "page/page.hpp"
 #include "study/compare.hpp"
@@ -50,9 +50,7 @@ study::Shard parse_shard(const std::string& text) {
   return shard;
 }
 
-int jobs_of(const StudyArguments& arguments) {
-  return arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-}
+int jobs_of(const StudyArguments& arguments) { return arguments.jobs > 0 ? arguments.jobs : available_threads(); }
 
 /// "2 h 05 min", "3 min 20 s", "12 s"
 std::string duration(double seconds) {

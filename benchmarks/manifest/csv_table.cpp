@@ -1,7 +1,6 @@
 #include "manifest/csv_table.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -99,11 +98,6 @@ std::string csv_text(const std::string& where, const std::vector<std::string>& c
     text += line_of(rows[row]);
   }
   return text;
-}
-
-std::string csv_number(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
 }  // namespace gridmerge

@@ -44,7 +44,4 @@ class CsvRow {
 [[nodiscard]] std::string csv_text(const std::string& where, const std::vector<std::string>& columns,
                                    const std::vector<std::vector<std::string>>& rows);
 
-/// The shortest text that reads back as the same number.
-[[nodiscard]] std::string csv_number(double value);
-
 }  // namespace gridmerge

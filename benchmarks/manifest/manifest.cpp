@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "gridmerge/base/error.hpp"
+#include "gridmerge/base/number_text.hpp"
 #include "manifest/csv_table.hpp"
 #include "map_server/whole_files.hpp"
 
@@ -34,7 +35,7 @@ std::string degrees_text(double angle_rad) {
   return text;
 }
 
-std::string optional_text(std::optional<double> value) { return value ? csv_number(*value) : ""; }
+std::string optional_text(std::optional<double> value) { return value ? exact(*value) : ""; }
 
 std::vector<std::string> cells_of(const ManifestPair& pair) {
   if (!pair.truth_known) {
@@ -48,12 +49,12 @@ std::vector<std::string> cells_of(const ManifestPair& pair) {
   const auto add_if = [&](bool known, auto&& text) { cells.push_back(known ? text() : std::string()); };
   const bool same = pair.truth.has_value();
   const bool centred = pair.source_centre.has_value();
-  add_if(same, [&] { return csv_number(pair.truth->target_from_source.x_m); });
-  add_if(same, [&] { return csv_number(pair.truth->target_from_source.y_m); });
-  add_if(same, [&] { return csv_number(pair.truth->target_from_source.theta_rad); });
-  add_if(centred, [&] { return csv_number(pair.source_centre->x_m); });
-  add_if(centred, [&] { return csv_number(pair.source_centre->y_m); });
-  add_if(same, [&] { return csv_number(pair.truth->tolerance_m); });
+  add_if(same, [&] { return exact(pair.truth->target_from_source.x_m); });
+  add_if(same, [&] { return exact(pair.truth->target_from_source.y_m); });
+  add_if(same, [&] { return exact(pair.truth->target_from_source.theta_rad); });
+  add_if(centred, [&] { return exact(pair.source_centre->x_m); });
+  add_if(centred, [&] { return exact(pair.source_centre->y_m); });
+  add_if(same, [&] { return exact(pair.truth->tolerance_m); });
   add_if(same, [&] { return degrees_text(pair.truth->tolerance_rad); });
   cells.push_back(optional_text(pair.overlap));
   cells.push_back(pair.tags);

@@ -7,9 +7,9 @@
 #include <iostream>
 #include <map>
 #include <memory>
-#include <thread>
 
 #include "gridmerge/align/pipeline.hpp"
+#include "gridmerge/base/parallel.hpp"
 #include "gridmerge/base/random.hpp"
 #include "manifest/manifest.hpp"
 #include "map_server/map_files.hpp"
@@ -29,7 +29,7 @@ struct Arguments {
   std::vector<double> prior;
   int repeats = 1;
   int every = 1;
-  int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  int threads = available_threads();
 };
 
 struct Pair {

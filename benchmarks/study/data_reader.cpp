@@ -11,7 +11,6 @@
 #include "manifest/map_folder.hpp"
 #include "study/option_entry.hpp"
 #include "study/sweep.hpp"
-#include "study/yaml_tree.hpp"
 
 namespace gridmerge::study {
 namespace {

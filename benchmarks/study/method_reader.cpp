@@ -6,7 +6,6 @@
 #include "cli/usage_error.hpp"
 #include "gridmerge/base/error.hpp"
 #include "study/sweep.hpp"
-#include "study/yaml_tree.hpp"
 
 namespace gridmerge::study {
 namespace {

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "cli/text.hpp"
+#include "gridmerge/base/number_text.hpp"
 #include "gridmerge/base/random.hpp"
 #include "study/drawn_pair.hpp"
 #include "study/machine.hpp"
@@ -91,15 +92,14 @@ std::string in_words(const MethodChoice& choice) {
 
 std::string in_words(const WindowChoice& window) {
   static constexpr const char* kAround[] = {"anywhere", "start", "middle", "truth"};
-  return window.name + " (" + kAround[static_cast<int>(window.around)] + ", " + cli::exact(window.share) + ", " +
-         cli::exact(window.least_deg) + " deg, " + cli::exact(window.radius_m) + " m, " + cli::exact(window.angle_deg) +
-         " deg)";
+  return window.name + " (" + kAround[static_cast<int>(window.around)] + ", " + exact(window.share) + ", " +
+         exact(window.least_deg) + " deg, " + exact(window.radius_m) + " m, " + exact(window.angle_deg) + " deg)";
 }
 
 /// Without the folder in which the maps lie: a study may be moved.
 std::string in_words(const PairChoice& pair) {
-  std::string text = pair.set + "/" + pair.name + " " + cli::exact(pair.tolerance_m) + " m " +
-                     cli::exact(pair.tolerance_deg) + " deg ";
+  std::string text =
+      pair.set + "/" + pair.name + " " + exact(pair.tolerance_m) + " m " + exact(pair.tolerance_deg) + " deg ";
   const auto* files = std::get_if<FileMaps>(&pair.maps);
   if (files == nullptr) {
     text += spec_of(pair);

@@ -7,9 +7,9 @@
 #include <optional>
 #include <type_traits>
 
-#include "cli/text.hpp"
 #include "config/read_file.hpp"
 #include "gridmerge/base/error.hpp"
+#include "gridmerge/base/number_text.hpp"
 #include "gridmerge/judge/evaluator.hpp"
 #include "map_server/whole_files.hpp"
 #include "study/row_fields.hpp"
@@ -30,7 +30,7 @@ std::string cell_of(const std::string& text) {
   return quoted + "\"";
 }
 
-std::string cell_of(double value) { return std::isfinite(value) ? cli::exact(value) : ""; }
+std::string cell_of(double value) { return std::isfinite(value) ? exact(value) : ""; }
 
 template <typename Whole>
 std::string cell_of(Whole value) {

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "config/read_file.hpp"
+#include "config/yaml_text.hpp"
 #include "gridmerge/base/error.hpp"
 #include "methods/register_all.hpp"
 #include "plugin/plugin_loader.hpp"
@@ -12,7 +13,6 @@
 #include "study/method_reader.hpp"
 #include "study/option_entry.hpp"
 #include "study/sweep.hpp"
-#include "study/yaml_tree.hpp"
 
 namespace gridmerge::study {
 namespace {

@@ -6,8 +6,8 @@
 #include <iomanip>
 #include <iostream>
 #include <sstream>
-#include <thread>
 
+#include "gridmerge/base/parallel.hpp"
 #include "methods/genetic/hit_fitness.hpp"
 #include "thesis/experiment.hpp"
 
@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
   CLI::App app("Runs the genetic method as published over the windows of the thesis; prints a Markdown table.");
   std::filesystem::path manifest;
   ExperimentOptions options;
-  options.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  options.threads = available_threads();
   app.add_option("manifest", manifest,
                  "CSV file that lists the pairs (columns set, a, b, truth, tx, ty, "
                  "theta, tol_m, tol_deg, tags)")

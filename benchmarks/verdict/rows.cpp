@@ -1,11 +1,11 @@
 #include "verdict/rows.hpp"
 
-#include <charconv>
 #include <mutex>
 #include <sstream>
 #include <stdexcept>
 
 #include "gridmerge/base/error.hpp"
+#include "gridmerge/base/number_text.hpp"
 #include "gridmerge/base/parallel.hpp"
 #include "manifest/csv_table.hpp"
 #include "verdict/derived.hpp"
@@ -41,11 +41,6 @@ Row row_of(const PairPlan& plan, const StudyPair& pair, const Merger& method, co
     }
   }
   return row;
-}
-
-std::string exact(double value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
 }  // namespace

@@ -10,11 +10,11 @@
 #include <map>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "config/config_file.hpp"
 #include "gridmerge/base/error.hpp"
+#include "gridmerge/base/parallel.hpp"
 #include "map_server/whole_files.hpp"
 #include "methods/register_all.hpp"
 #include "verdict/fit.hpp"
@@ -129,7 +129,7 @@ void run_fit(const std::vector<Row>& rows, const std::vector<std::string>& weigh
 int main(int argc, char** argv) {
   CLI::App app("Judges the verdict on pairs of maps with known truth, and fits the weights of its confidence.");
   app.require_subcommand(1);
-  const auto cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const auto cores = available_threads();
   PairOptions options = {.manifests = {}, .same_building = {}, .threads = cores};
   std::vector<std::string> groups;
   std::vector<std::string> weights;

@@ -15,6 +15,10 @@ void require_no_problems(const SceneOptions& options) {
   }
 }
 
+Tracks tracks_with(const SceneOptions& options, double target_flown) {
+  return {flight_of(options, Role::kTarget, target_flown).track, flight_of(options, Role::kSource).track};
+}
+
 }  // namespace
 
 MapPair make_scene(const SceneOptions& options) {
@@ -24,15 +28,16 @@ MapPair make_scene(const SceneOptions& options) {
 
 Tracks tracks_of(const SceneOptions& options) {
   require_no_problems(options);
+  return options.wanted_overlap > 0 ? tracks_of(options, draw_with_overlap(options)) : tracks_with(options, 1);
+}
+
+Tracks tracks_of(const SceneOptions& options, const MapPair& pair) {
   SceneOptions settled = options;
-  double target_flown = 1;
   if (options.wanted_overlap > 0) {
-    const MapPair pair = draw_with_overlap(options);
     settled.target_share = pair.target_share;
     settled.source_share = pair.source_share;
-    target_flown = pair.target_flown;
   }
-  return {flight_of(settled, Role::kTarget, target_flown).track, flight_of(settled, Role::kSource).track};
+  return tracks_with(settled, pair.target_flown);
 }
 
 double overlap_of(const OccupancyGrid& target, const OccupancyGrid& source, const Pose2& target_from_source) {

@@ -45,28 +45,6 @@ LidarModel model_of(const SceneOptions& options) {
           .dropout = options.dropout};
 }
 
-/// What stands within range of a spot; all else is met by no beam.
-World about(const World& world, Point2 spot, double range_m) {
-  World near;
-  near.length_m = world.length_m;
-  near.depth_m = world.depth_m;
-  const Point2 low = {spot.x_m - range_m, spot.y_m - range_m};
-  const Point2 high = {spot.x_m + range_m, spot.y_m + range_m};
-  for (const Segment& wall : world.walls) {
-    if (std::max(wall.from.x_m, wall.to.x_m) >= low.x_m && std::min(wall.from.x_m, wall.to.x_m) <= high.x_m &&
-        std::max(wall.from.y_m, wall.to.y_m) >= low.y_m && std::min(wall.from.y_m, wall.to.y_m) <= high.y_m) {
-      near.walls.push_back(wall);
-    }
-  }
-  for (const Disc& disc : world.discs) {
-    if (disc.centre.x_m + disc.radius_m >= low.x_m && disc.centre.x_m - disc.radius_m <= high.x_m &&
-        disc.centre.y_m + disc.radius_m >= low.y_m && disc.centre.y_m - disc.radius_m <= high.y_m) {
-      near.discs.push_back(disc);
-    }
-  }
-  return near;
-}
-
 /// Roll and pitch in flight: each is like the one before, and is forgotten after a few scans.
 class Sway {
  public:
@@ -100,15 +78,13 @@ class Eyes {
   Eyes(const Flight& flight, const std::vector<const Track*>& seen, const SceneOptions& options)
       : flight_(flight),
         seen_(seen),
-        model_(model_of(options)),
-        lidar_(model_),
+        lidar_(model_of(options)),
         chance_(static_cast<std::uint64_t>(options.seed), flight.robot.name + "/lidar"),
         sway_(options, flight.robot.name) {}
 
   [[nodiscard]] std::vector<Point2> scan(std::size_t stop) {
     const Pose2& world_from_lidar = flight_.track.world_from_robot[stop];
-    const World near = about(flight_.track.world, world_from_lidar.translation(), model_.range_m);
-    return lidar_.scan(near, flight_.robot.sight, world_from_lidar, chance_, sway_.next(), others(stop));
+    return lidar_.scan(flight_.track.world, flight_.robot.sight, world_from_lidar, chance_, sway_.next(), others(stop));
   }
 
  private:
@@ -128,7 +104,6 @@ class Eyes {
 
   const Flight& flight_;
   const std::vector<const Track*>& seen_;
-  LidarModel model_;
   Lidar lidar_;
   RandomStream chance_;
   Sway sway_;

@@ -23,5 +23,8 @@ struct Tracks {
 /// Those of make_scene(options). With wanted_overlap that takes the search for the shares; without, milliseconds.
 /// @throws std::invalid_argument listing the problems of the options
 [[nodiscard]] Tracks tracks_of(const SceneOptions& options);
+/// The same where the pair is drawn already: the search need not be made again.
+/// @param pair  make_scene(options)
+[[nodiscard]] Tracks tracks_of(const SceneOptions& options, const MapPair& pair);
 
 }  // namespace gridmerge::worlds

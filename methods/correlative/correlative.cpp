@@ -301,10 +301,8 @@ Proposal CorrelativeMerger::propose(const AlignRequest& request, const RunContex
                              .max_cells = o.max_cells,
                              .both_ways = o.both_ways,
                              .fit = o.fit});
-  if (context.trace != nullptr) {
-    context.trace->on_stage("propose/lattice");
-  }
-  Panorama panorama(lattice, context.trace != nullptr && context.trace->wants_views());
+  announce(context, "propose/lattice");
+  Panorama panorama(lattice, wants_views(context));
   const LatticeProof proof = search(lattice, kPeaksPerAngle, context, panorama);
 
   Proposal proposal;
@@ -319,7 +317,7 @@ Proposal CorrelativeMerger::propose(const AlignRequest& request, const RunContex
   }
   const PoseReach reach{o.distinct_m, radians(o.distinct_deg)};
   std::vector<ScoredPose> best = distinct_poses(std::move(poses), reach, static_cast<std::size_t>(o.candidates));
-  const bool views = context.trace != nullptr && context.trace->wants_views() && proof.best_score > 0;
+  const bool views = wants_views(context) && proof.best_score > 0;
   if (views) {
     panorama.show(lattice, proof, best, swap ? "target" : "source", *context.trace);
   }
@@ -335,9 +333,7 @@ Proposal CorrelativeMerger::propose(const AlignRequest& request, const RunContex
     one.score = PoseLattice::fitness(one.score);
   }
   if (o.climb && !best.empty()) {
-    if (context.trace != nullptr) {
-      context.trace->on_stage("propose/climb");
-    }
+    announce(context, "propose/climb");
     const WallFit fitness(request.target, request.source, kClimbLevel, o.fit, kClimbPoints);
     const PoseReach first{lattice.resolution_m() / 2, lattice.angle_step_rad() / 2};
     const PoseReach last{0.02, radians(0.1)};

@@ -50,12 +50,6 @@ KeypointMatches all_matches(const FeaturesOptions& options, const AlignRequest& 
   return all;
 }
 
-void announce(const RunContext& context, const std::string& stage) {
-  if (context.trace != nullptr) {
-    context.trace->on_stage(stage);
-  }
-}
-
 }  // namespace
 
 void FeaturesOptions::describe(OptionList& list) {
@@ -114,7 +108,7 @@ Proposal FeaturesMerger::propose(const AlignRequest& request, const RunContext& 
   });
   poses = distinct_poses(std::move(poses), kNiche, static_cast<std::size_t>(o.candidates));
 
-  if (context.trace != nullptr && context.trace->wants_views()) {
+  if (wants_views(context)) {
     show_matches(*context.trace, found, rounds.poses);
   }
   Proposal proposal;

@@ -46,9 +46,7 @@ MergerTraits PaperFeaturesMerger::traits() const {
 Proposal PaperFeaturesMerger::propose(const AlignRequest& request, const RunContext& context) const {
   const PaperFeaturesOptions& o = options_;
   Proposal proposal;
-  if (context.trace != nullptr) {
-    context.trace->on_stage("propose/match");
-  }
+  announce(context, "propose/match");
   if (context.stop.stop_requested()) {
     proposal.stopped = true;
     return proposal;
@@ -61,9 +59,7 @@ Proposal PaperFeaturesMerger::propose(const AlignRequest& request, const RunCont
                                                  .threshold = o.akaze_threshold,
                                                  .neighbours = 1,
                                                  .ratio = o.ratio});
-  if (context.trace != nullptr) {
-    context.trace->on_stage("propose/ransac");
-  }
+  announce(context, "propose/ransac");
   SequentialPoses one;
   if (found.matches.size() >= static_cast<std::size_t>(o.min_matches)) {
     const RansacRules rules{.samples = o.samples,
@@ -78,7 +74,7 @@ Proposal PaperFeaturesMerger::propose(const AlignRequest& request, const RunCont
           {from_local(pose.pose, request.target, request.source), static_cast<double>(pose.inliers.size())});
     }
   }
-  if (context.trace != nullptr && context.trace->wants_views()) {
+  if (wants_views(context)) {
     show_matches(*context.trace, found, one.poses);
   }
   proposal.iterations = one.rounds;

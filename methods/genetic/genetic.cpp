@@ -14,17 +14,6 @@ namespace {
 /// The level of the maps on which poses evolve: fine enough to tell walls apart, coarse enough to be quick.
 constexpr int kEvolveLevel = 1;
 
-/// Uniform over the window; over every pose at which the maps could touch, where there is none.
-Pose2 uniform_pose(RandomStream& random, const AlignRequest& request, const std::optional<PoseWindow>& window) {
-  const PoseWindow all{
-      .centre = {}, .radius_m = request.target.radius_m() + request.source.radius_m(), .angle_rad = kPi};
-  const PoseWindow& w = window ? *window : all;
-  const double way = random.uniform(-kPi, kPi);
-  const double far = w.radius_m * std::sqrt(random.uniform());
-  return {w.centre.x_m + far * std::cos(way), w.centre.y_m + far * std::sin(way),
-          wrap_angle(w.centre.theta_rad + random.uniform(-w.angle_rad, w.angle_rad))};
-}
-
 Pose2 mutated(const Pose2& pose, double sigma_m, double sigma_rad, RandomStream& random) {
   const double dx = sigma_m * random.normal();
   const double dy = sigma_m * random.normal();
@@ -136,9 +125,7 @@ Proposal GeneticMerger::propose(const AlignRequest& request, const RunContext& c
     }
   }
   if (o.seeding == "sweep") {
-    if (context.trace != nullptr) {
-      context.trace->on_stage("propose/sweep");
-    }
+    announce(context, "propose/sweep");
     const SweepOptions sweep{.lattice = {.angle_step_rad = radians(o.angle_step_deg), .fit = o.fit}};
     const SweepResult found = correlation_sweep(request.target, request.source, window, sweep, context);
     proposal.stopped = found.stopped;
@@ -147,7 +134,7 @@ Proposal GeneticMerger::propose(const AlignRequest& request, const RunContext& c
     population.insert(population.end(), heads.begin(), heads.end());
   } else {
     for (std::size_t i = 0; i < size; ++i) {
-      population.push_back({uniform_pose(first, request, window), 0});
+      population.push_back({uniform_pose(request, window, first), 0});
     }
   }
   std::erase_if(population, [&](const ScoredPose& one) { return !inside(one.pose, window); });
@@ -158,10 +145,8 @@ Proposal GeneticMerger::propose(const AlignRequest& request, const RunContext& c
                [&](std::size_t i, std::size_t) { population[i].score = fitness(population[i].pose); });
 
   // Evolution: every pose against its own children; every fourth generation the weaker half of the niches is given up.
-  if (context.trace != nullptr) {
-    context.trace->on_stage("propose/evolve");
-  }
-  const bool views = context.trace != nullptr && context.trace->wants_views();
+  announce(context, "propose/evolve");
+  const bool views = wants_views(context);
   const std::vector<ScoredPose> first_generation = views ? population : std::vector<ScoredPose>{};
   Growth growth;
   const int generations = std::min(o.generations, context.stop.iteration_budget());

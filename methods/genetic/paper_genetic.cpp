@@ -291,9 +291,7 @@ MergerTraits PaperGeneticMerger::traits() const {
 }
 
 Proposal PaperGeneticMerger::propose(const AlignRequest& request, const RunContext& context) const {
-  if (context.trace != nullptr) {
-    context.trace->on_stage("propose/evolve");
-  }
+  announce(context, "propose/evolve");
   Evolution evolution(options_, request, context);
   const int planned = static_cast<int>(std::min<std::int64_t>(
       std::int64_t{options_.epochs} * options_.iterations_per_epoch, context.stop.iteration_budget()));

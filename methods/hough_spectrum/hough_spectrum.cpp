@@ -114,27 +114,21 @@ class Search {
         distinct_{options.distinct_m, radians(options.distinct_deg)} {}
 
   [[nodiscard]] Proposal run() {
-    announce("propose/translations");
+    announce(context_, "propose/translations");
     std::vector<ScoredPose> poses = translated();
-    announce("propose/climb");
+    announce(context_, "propose/climb");
     poses = climbed(std::move(poses));
     proposal_.candidates = candidates_of(
         distinct_poses(std::move(poses), distinct_, static_cast<std::size_t>(options_.candidates)), request_);
     proposal_.stopped = stopped_ || context_.stop.stop_requested();
     // Not `surveyed`: at rotations that are no maximum of the spectra there may be rivals.
-    if (context_.trace != nullptr && context_.trace->wants_views()) {
+    if (wants_views(context_)) {
       show();
     }
     return std::move(proposal_);
   }
 
  private:
-  void announce(const std::string& stage) const {
-    if (context_.trace != nullptr) {
-      context_.trace->on_stage(stage);
-    }
-  }
-
   [[nodiscard]] bool poll_stop() {
     if (context_.stop.stop_requested()) {
       stopped_ = true;
@@ -373,9 +367,7 @@ MergerTraits HoughSpectrumMerger::traits() const {
 }
 
 Proposal HoughSpectrumMerger::propose(const AlignRequest& request, const RunContext& context) const {
-  if (context.trace != nullptr) {
-    context.trace->on_stage("propose/spectra");
-  }
+  announce(context, "propose/spectra");
   return Search(options_, request, context).run();
 }
 

@@ -130,7 +130,7 @@ class PaperSearch {
     std::stable_sort(poses.begin(), poses.end(),
                      [](const ScoredPose& a, const ScoredPose& b) { return a.score > b.score; });
     proposal.candidates = candidates_of(poses, request_);
-    if (context_.trace != nullptr && context_.trace->wants_views()) {
+    if (wants_views(context_)) {
       show(turns, poses, proposal);
     }
     return proposal;
@@ -252,9 +252,7 @@ MergerTraits PaperHoughSpectrumMerger::traits() const {
 }
 
 Proposal PaperHoughSpectrumMerger::propose(const AlignRequest& request, const RunContext& context) const {
-  if (context.trace != nullptr) {
-    context.trace->on_stage("propose/spectra");
-  }
+  announce(context, "propose/spectra");
   return PaperSearch(options_, request, context).run();
 }
 

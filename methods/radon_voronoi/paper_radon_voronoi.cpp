@@ -118,12 +118,7 @@ Proposal PaperRadonVoronoiMerger::propose(const AlignRequest& request, const Run
   const PaperRadonVoronoiOptions& o = options_;
   const std::optional<PoseWindow> window = window_of(request);
   Proposal proposal;
-  const auto announce = [&](const char* stage) {
-    if (context.trace != nullptr) {
-      context.trace->on_stage(stage);
-    }
-  };
-  announce("propose/look");
+  announce(context, "propose/look");
   if (context.stop.stop_requested()) {
     proposal.stopped = true;
     return proposal;
@@ -136,7 +131,7 @@ Proposal PaperRadonVoronoiMerger::propose(const AlignRequest& request, const Run
   const std::vector<double> correlation = radon::energy_correlation(looks[0].sinogram, looks[1].sinogram);
   const std::vector<Rotation> rotations = rotations_to_try(correlation, window);
 
-  announce("propose/translation");
+  announce(context, "propose/translation");
   const auto budget = static_cast<std::size_t>(std::max(0, context.stop.iteration_budget()));
   std::vector<VoteSurface> surfaces(std::min(rotations.size(), budget));
   parallel_for(surfaces.size(), context.num_threads, [&](std::size_t i, std::size_t) {
@@ -157,7 +152,7 @@ Proposal PaperRadonVoronoiMerger::propose(const AlignRequest& request, const Run
   std::stable_sort(poses.begin(), poses.end(),
                    [](const ScoredPose& a, const ScoredPose& b) { return a.score > b.score; });
   proposal.candidates = candidates_of(poses, request);
-  if (context.trace != nullptr && context.trace->wants_views()) {
+  if (wants_views(context)) {
     show(looks, correlation, rotations, surfaces, poses, *context.trace);
   }
   return proposal;

@@ -119,18 +119,13 @@ MergerTraits RadonVoronoiMerger::traits() const {
 Proposal RadonVoronoiMerger::propose(const AlignRequest& request, const RunContext& context) const {
   const RadonVoronoiOptions& o = options_;
   const std::optional<PoseWindow> window = window_of(request);
-  const auto announce = [&](const char* stage) {
-    if (context.trace != nullptr) {
-      context.trace->on_stage(stage);
-    }
-  };
   Proposal proposal;
   const auto stopped = [&] {
     proposal.stopped = proposal.stopped || context.stop.stop_requested();
     return proposal.stopped;
   };
 
-  announce("propose/look");
+  announce(context, "propose/look");
   if (stopped()) {
     return proposal;
   }
@@ -141,11 +136,11 @@ Proposal RadonVoronoiMerger::propose(const AlignRequest& request, const RunConte
   });
   const auto& [target, source] = looks;
 
-  announce("propose/rotation");
+  announce(context, "propose/rotation");
   const std::vector<double> correlation = radon::angle_correlation(target.sinogram, source.sinogram);
   const std::vector<Rotation> rotations = rotations_to_try(correlation, window, o);
 
-  announce("propose/translation");
+  announce(context, "propose/translation");
   const WallFit coarse(request.target, request.source, kCoarseLevel, o.fit, static_cast<std::size_t>(o.max_points));
   const auto budget = static_cast<std::size_t>(std::max(0, context.stop.iteration_budget()));
   std::vector<std::vector<ScoredPose>> found(std::min(rotations.size(), budget));
@@ -180,7 +175,7 @@ Proposal RadonVoronoiMerger::propose(const AlignRequest& request, const RunConte
     poses.push_back({start, coarse(start)});
   }
 
-  announce("propose/climb");
+  announce(context, "propose/climb");
   poses = distinct_poses(std::move(poses), {0.5 * o.distinct_m, 0.5 * radians(o.distinct_deg)},
                          static_cast<std::size_t>(o.climbed));
   const WallFit fine(request.target, request.source, kClimbLevel, o.fit, static_cast<std::size_t>(o.max_points));
@@ -194,7 +189,7 @@ Proposal RadonVoronoiMerger::propose(const AlignRequest& request, const RunConte
   poses =
       distinct_poses(std::move(poses), {o.distinct_m, radians(o.distinct_deg)}, static_cast<std::size_t>(o.candidates));
   proposal.candidates = candidates_of(poses, request);
-  if (context.trace != nullptr && context.trace->wants_views()) {
+  if (wants_views(context)) {
     show(looks, correlation, rotations, window, poses, o, *context.trace);
   }
   return proposal;

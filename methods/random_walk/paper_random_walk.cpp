@@ -149,9 +149,7 @@ MergerTraits PaperRandomWalkMerger::traits() const {
 }
 
 Proposal PaperRandomWalkMerger::propose(const AlignRequest& request, const RunContext& context) const {
-  if (context.trace != nullptr) {
-    context.trace->on_stage("propose/walk");
-  }
+  announce(context, "propose/walk");
   Walk walk(options_, request, context);
   Proposal proposal;
   const int blocks = (options_.samples + kBlock - 1) / kBlock;
@@ -171,7 +169,7 @@ Proposal PaperRandomWalkMerger::propose(const AlignRequest& request, const RunCo
     }
   }
   proposal.candidates = candidates_of({walk.best()}, request);
-  if (context.trace != nullptr && context.trace->wants_views()) {
+  if (wants_views(context)) {
     walk.show(*context.trace);
   }
   return proposal;

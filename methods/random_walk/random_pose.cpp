@@ -30,16 +30,6 @@ Pose2 laid_on(Point2f target, Point2f source, double turn) {
 
 }  // namespace
 
-Pose2 uniform_pose(const AlignRequest& request, const std::optional<PoseWindow>& window, RandomStream& random) {
-  const PoseWindow all{
-      .centre = {}, .radius_m = request.target.radius_m() + request.source.radius_m(), .angle_rad = kPi};
-  const PoseWindow& w = window ? *window : all;
-  const double way = random.uniform(-kPi, kPi);
-  const double far = w.radius_m * std::sqrt(random.uniform());
-  return {w.centre.x_m + far * std::cos(way), w.centre.y_m + far * std::sin(way),
-          wrap_angle(w.centre.theta_rad + random.uniform(-w.angle_rad, w.angle_rad))};
-}
-
 std::optional<Pose2> wall_on_wall_pose(const AlignRequest& request, RandomStream& random) {
   constexpr double kTurnSigma = radians(4);
   const WallPoint* on = sided_wall(request.target.walls(), random);

@@ -8,10 +8,6 @@
 
 namespace gridmerge {
 
-/// Uniform over the window; over every pose at which the maps could touch, where there is none. Between local frames.
-[[nodiscard]] Pose2 uniform_pose(const AlignRequest& request, const std::optional<PoseWindow>& window,
-                                 RandomStream& random);
-
 /// Lays a wall of the source, drawn at random, on one of the target so that both were seen from the same side. The more
 /// walls a pose lays on walls, the likelier it, or one beside it, is drawn. None where no wall's side is known.
 [[nodiscard]] std::optional<Pose2> wall_on_wall_pose(const AlignRequest& request, RandomStream& random);

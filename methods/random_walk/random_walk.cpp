@@ -68,15 +68,15 @@ class Search {
         context_(context),
         window_(window_of(request)),
         levels_(levels_to_walk(request.target)),
-        watched_(context.trace != nullptr && context.trace->wants_views()) {}
+        watched_(wants_views(context)) {}
 
   Proposal run() {
-    announce("propose/starts");
+    announce(context_, "propose/starts");
     std::vector<ScoredPose> found = scored_starts();
     const std::vector<ScoredPose> starts = watched_ ? found : std::vector<ScoredPose>{};
     found = distinct(std::move(found), request_.target.level(levels_.front()).resolution_m,
                      static_cast<std::size_t>(options_.walks));
-    announce("propose/walk");
+    announce(context_, "propose/walk");
     Proposal proposal;
     for (std::size_t k = 0; k < levels_.size(); ++k) {
       const LockedDistance delta = delta_at(levels_[k]);
@@ -102,12 +102,6 @@ class Search {
   }
 
  private:
-  void announce(const std::string& stage) const {
-    if (context_.trace != nullptr) {
-      context_.trace->on_stage(stage);
-    }
-  }
-
   [[nodiscard]] LockedDistance delta_at(int level) const {
     const auto points = static_cast<std::size_t>(options_.max_points);
     return {request_.target, request_.source, level, options_.lock, level == levels_.back() ? points : points / 2};

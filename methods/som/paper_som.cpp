@@ -262,12 +262,6 @@ class Search {
   std::vector<Trial> trials_;  ///< best first
 };
 
-void announce(const RunContext& context, const std::string& stage) {
-  if (context.trace != nullptr) {
-    context.trace->on_stage(stage);
-  }
-}
-
 }  // namespace
 
 void PaperSomOptions::describe(OptionList& list) {

@@ -26,12 +26,6 @@ constexpr int kClimbLevel = 1;
 constexpr PoseReach kFirstStep{0.1, radians(1)};
 constexpr PoseReach kLastStep{0.05, radians(0.5)};
 
-void announce(const RunContext& context, const std::string& stage) {
-  if (context.trace != nullptr) {
-    context.trace->on_stage(stage);
-  }
-}
-
 /// What both maps have become.
 struct LearntMaps {
   ClusterPoints target;

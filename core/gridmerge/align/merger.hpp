@@ -40,6 +40,18 @@ struct RunContext {
   TraceSink* trace = nullptr;  ///< optional, not owned
 };
 
+/// Tells whoever watches which stage begins.
+inline void announce(const RunContext& context, const std::string& stage) {
+  if (context.trace != nullptr) {
+    context.trace->on_stage(stage);
+  }
+}
+
+/// Whether views are worth a method's time.
+[[nodiscard]] inline bool wants_views(const RunContext& context) {
+  return context.trace != nullptr && context.trace->wants_views();
+}
+
 struct Candidate {
   Pose2 target_from_source;  ///< between the map frames
   double method_score = 0;   ///< higher is better, in the method's own unit: never compared with another method's

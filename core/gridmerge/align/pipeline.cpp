@@ -44,12 +44,6 @@ std::optional<std::string> unusable(const PreparedMap& map, const std::string& w
 /// Share of a pose's evidence that its refinement must keep.
 constexpr double kEvidenceKept = 0.97;
 
-void announce(const RunContext& context, const std::string& stage) {
-  if (context.trace != nullptr) {
-    context.trace->on_stage(stage);
-  }
-}
-
 /// The first of every group of poses that are one answer; ranked stays ranked.
 /// The method's best stays first: a rival that fits better only takes its lead.
 std::vector<Hypothesis> distinct(std::vector<Hypothesis> ranked, Point2 source_centre, const VerdictOptions& o,

@@ -20,4 +20,14 @@ bool inside(const Pose2& local_target_from_source, const std::optional<PoseWindo
           std::abs(wrap_angle(local_target_from_source.theta_rad - window->centre.theta_rad)) <= window->angle_rad);
 }
 
+Pose2 uniform_pose(const AlignRequest& request, const std::optional<PoseWindow>& window, RandomStream& random) {
+  const PoseWindow all{
+      .centre = {}, .radius_m = request.target.radius_m() + request.source.radius_m(), .angle_rad = kPi};
+  const PoseWindow& w = window ? *window : all;
+  const double way = random.uniform(-kPi, kPi);
+  const double far = w.radius_m * std::sqrt(random.uniform());
+  return {w.centre.x_m + far * std::cos(way), w.centre.y_m + far * std::sin(way),
+          wrap_angle(w.centre.theta_rad + random.uniform(-w.angle_rad, w.angle_rad))};
+}
+
 }  // namespace gridmerge

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "gridmerge/align/merger.hpp"
+#include "gridmerge/base/random.hpp"
 
 namespace gridmerge {
 
@@ -19,5 +20,9 @@ struct PoseWindow {
 
 /// Whether a pose between local frames lies in the window; always, where there is none.
 [[nodiscard]] bool inside(const Pose2& local_target_from_source, const std::optional<PoseWindow>& window);
+
+/// Uniform over the window; over every pose at which the maps could touch, where there is none. Between local frames.
+[[nodiscard]] Pose2 uniform_pose(const AlignRequest& request, const std::optional<PoseWindow>& window,
+                                 RandomStream& random);
 
 }  // namespace gridmerge

@@ -11,6 +11,11 @@
 
 namespace gridmerge {
 
+/// As many threads as the machine runs at a time; at least 1.
+[[nodiscard]] inline int available_threads() {
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
 /// Calls `body(index, worker)` for every index in 0..count-1 on up to `num_threads` threads, the caller's among them.
 /// `worker` (0..num_threads-1) names scratch memory that is not shared; it must not influence a result.
 /// The first exception that a body throws is thrown again here, after all threads have come to rest.
