@@ -14,9 +14,9 @@
 #include "manifest/folder_entries.hpp"
 #include "manifest/halmstad_annotations.hpp"
 #include "manifest/known_area.hpp"
-#include "manifest/point_fit.hpp"
 #include "manifest/problem_list.hpp"
 #include "map_server/raster_image.hpp"
+#include "worlds/point_fit.hpp"
 
 namespace gridmerge {
 namespace {

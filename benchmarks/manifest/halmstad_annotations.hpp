@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "manifest/point_fit.hpp"
+#include "worlds/point_fit.hpp"
 
 namespace gridmerge {
 

@@ -58,27 +58,52 @@ void Builder::outer_walls() {
 }
 
 // Draws stand in braces, which fix their order.
-void Builder::furnish(const Rect& room, RandomStream& random) {
-  const auto count = 1 + static_cast<int>(room.width() * room.depth() / 8);
+Builder::Piece Builder::draw_piece(const Rect& room, RandomStream& random) {
   const double scale = std::min(1.0, std::min(room.width(), room.depth()) / 4);
   const Point2 inset = {std::min(1.2, room.width() / 2), std::min(1.2, room.depth() / 2)};
+  Piece piece;
+  piece.at = {random.uniform(room.x0 + inset.x_m, room.x1 - inset.x_m),
+              random.uniform(room.y0 + inset.y_m, room.y1 - inset.y_m)};
+  piece.size = scale * Point2{random.uniform(0.7, 1.6), random.uniform(0.5, 0.9)};
+  piece.along = direction(random.uniform(0, kPi));
+  piece.at_side = {random.below(2) == 0 ? room.x0 + 0.3 : room.x1 - 0.3, piece.at.y_m};
+  piece.thing = random.below(4);
+  return piece;
+}
+
+void Builder::put(const Piece& piece) {
+  if (near_doorway(piece.thing == 1 ? piece.at_side : piece.at)) {
+    return;
+  }
+  if (piece.thing == 0) {
+    disc(piece.at, piece.size.x_m / 5);
+  } else if (piece.thing == 1) {  // a cupboard with its back to a side wall
+    box(piece.at_side, {0.45, piece.size.x_m});
+  } else {
+    box(piece.at, piece.size, piece.thing == 2 ? piece.along : Point2{1, 0});
+  }
+}
+
+void Builder::furnish(const Rect& room, RandomStream& random) {
+  const auto count = 1 + static_cast<int>(room.width() * room.depth() / 8);
   for (int i = 0; i < count; ++i) {
-    const Point2 at = {random.uniform(room.x0 + inset.x_m, room.x1 - inset.x_m),
-                       random.uniform(room.y0 + inset.y_m, room.y1 - inset.y_m)};
-    const Point2 size = scale * Point2{random.uniform(0.7, 1.6), random.uniform(0.5, 0.9)};
-    const Point2 along = direction(random.uniform(0, kPi));
-    const Point2 at_side = {random.below(2) == 0 ? room.x0 + 0.3 : room.x1 - 0.3, at.y_m};
-    const std::uint32_t thing = random.below(4);
-    if (near_doorway(thing == 1 ? at_side : at)) {
+    const Piece piece = draw_piece(room, random);
+    if (cleared_) {
       continue;
     }
-    if (thing == 0) {
-      disc(at, size.x_m / 5);
-    } else if (thing == 1) {  // a cupboard with its back to a side wall
-      box(at_side, {0.45, size.x_m});
-    } else {
-      box(at, size, thing == 2 ? along : Point2{1, 0});
+    if (!rearranging_ || rearranging_->uniform() >= rearranged_share_) {
+      put(piece);
+    } else if (rearranging_->below(2) == 0) {
+      put(draw_piece(room, *rearranging_));
     }
+  }
+}
+
+void Builder::change_furniture(const Plot& plot) {
+  cleared_ = plot.cleared;
+  rearranged_share_ = plot.rearranged_share;
+  if (rearranged_share_ > 0) {
+    rearranging_.emplace(plot.seed, "world/rearranged");
   }
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 /// What every kind of world is put together from: walls with doors, boxes, discs, furniture.
+#include <optional>
 #include <vector>
 
 #include "gridmerge/base/random.hpp"
+#include "worlds/kinds.hpp"
 #include "worlds/world.hpp"
 
 namespace gridmerge::worlds {
@@ -44,16 +46,31 @@ class Builder {
 
   /// Tables, cupboards, columns, clear of the doorways there are: no two rooms alike.
   void furnish(const Rect& room, RandomStream& random);
+  /// From now on furniture is moved within its room or taken away, as the plot says.
+  void change_furniture(const Plot& plot);
 
   [[nodiscard]] double depth_m() const { return world_.depth_m; }
   [[nodiscard]] const std::vector<Point2>& doorways() const { return doorways_; }
   [[nodiscard]] World finish();
 
  private:
+  /// One piece of furniture, as it is drawn.
+  struct Piece {
+    Point2 at;
+    Point2 size;
+    Point2 along;
+    Point2 at_side;
+    std::uint32_t thing = 0;
+  };
+  [[nodiscard]] static Piece draw_piece(const Rect& room, RandomStream& random);
+  void put(const Piece& piece);
   [[nodiscard]] bool near_doorway(Point2 at) const;
 
   World world_;
   std::vector<Point2> doorways_;
+  double rearranged_share_ = 0;
+  bool cleared_ = false;
+  std::optional<RandomStream> rearranging_;
 };
 
 /// A door somewhere in a wall of that length, off the corners.

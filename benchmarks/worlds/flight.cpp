@@ -18,6 +18,14 @@ World variant(const SceneOptions& options, const std::string& kind, std::uint64_
   return make_world(kind, seed, {.length_m = world_grows(kind) ? options.length_m : 0, .storey = storey});
 }
 
+/// The world as the source's robot finds it.
+World changed(const SceneOptions& options, std::uint64_t seed) {
+  return make_world(options.kind, seed,
+                    {.length_m = world_grows(options.kind) ? options.length_m : 0,
+                     .rearranged_share = options.rearranged_share,
+                     .cleared = options.cleared});
+}
+
 std::string another_building(const SceneOptions& options) {
   constexpr std::array<const char*, 5> kBuildings = {"office", "flat", "warehouse", "floors", "maze"};
   std::vector<std::string> others(kBuildings.begin(), kBuildings.end());
@@ -38,8 +46,9 @@ World world_of(const SceneOptions& options, Role role) {
   if (role == Role::kSource && options.relation == "two_floors") {
     return variant(options, options.kind, seed, 1);
   }
-  const World world = variant(options, options.kind, seed);
-  return role == Role::kSource && options.relation == "mirrored" ? mirrored(world) : world;
+  const bool of_source = role == Role::kSource;
+  const World world = of_source ? changed(options, seed) : variant(options, options.kind, seed);
+  return of_source && options.relation == "mirrored" ? mirrored(world) : world;
 }
 
 Robot robot_of(const SceneOptions& options, Role role, double length_m) {

@@ -80,6 +80,7 @@ World office_block(const Plot& plot, double length_m) {
     wings.push_back(wing);
   }
   Builder builder(length_m, depth_m);
+  builder.change_furniture(plot);
   builder.outer_walls();
   for (const Wing& wing : wings) {
     office_wing(builder, wing, random, random);
@@ -139,6 +140,7 @@ World office(const Plot& plot) {
   const double corridor_m = random.uniform(1.9, 2.6);
   const double above_m = random.uniform(6, 8);
   Builder builder(length_m, below_m + corridor_m + above_m);
+  builder.change_furniture(plot);
   office_wing(builder, {0, length_m, 0, below_m, corridor_m, above_m}, random, random);
   for (const double end_x : {0.0, length_m}) {
     builder.wall({end_x, below_m}, {end_x, below_m + corridor_m});
@@ -155,6 +157,7 @@ World floors(const Plot& plot) {
   const double below_m = random.uniform(5, 6);
   const double above_m = random.uniform(5, 6);
   Builder builder(length_m, below_m + 2.2 + above_m);
+  builder.change_furniture(plot);
   office_wing(builder, {0, length_m, 0, below_m, 2.2, above_m}, random, furniture);
   for (const double end_x : {0.0, length_m}) {
     builder.wall({end_x, below_m}, {end_x, below_m + 2.2});
@@ -167,6 +170,7 @@ World flat(const Plot& plot) {
   const double length_m = random.uniform(11, 14);
   const double depth_m = random.uniform(8, 10);
   Builder builder(length_m, depth_m);
+  builder.change_furniture(plot);
   builder.outer_walls();
   divide(builder, {0, 0, length_m, depth_m}, random);
   return builder.finish();

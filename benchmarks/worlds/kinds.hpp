@@ -9,10 +9,12 @@ namespace gridmerge::worlds {
 
 /// What a world is drawn from.
 struct Plot {
-  RandomStream& random;    // of the kind and the seed
-  std::uint64_t seed = 1;  // for streams of its own
-  double length_m = 0;     // 0: the kind's own
-  int storey = 0;          // of a kind with storeys
+  RandomStream& random;         // of the kind and the seed
+  std::uint64_t seed = 1;       // for streams of its own
+  double length_m = 0;          // 0: the kind's own
+  int storey = 0;               // of a kind with storeys
+  double rearranged_share = 0;  // of the furniture
+  bool cleared = false;         // of all of it
 };
 
 [[nodiscard]] World office(const Plot& plot);

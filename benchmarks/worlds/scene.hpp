@@ -19,6 +19,8 @@ struct SceneOptions {
   std::string start = "random";
   double start_distance_m = 4;
   double length_m = 0;
+  double rearranged_share = 0;
+  bool cleared = false;
   double target_heading_deg = 0;
   double rotation_deg = 110;
   double origin_yaw_deg = 0;
@@ -51,7 +53,11 @@ struct SceneOptions {
 struct MapPair {
   OccupancyGrid target;
   OccupancyGrid source;
-  Pose2 target_from_source;   ///< between the map frames; exact, also for two worlds: they stand a kilometre apart
+  Pose2 target_from_source;  ///< between the map frames; exact, also for two worlds: they stand a kilometre apart
+  /// Where drift bends the maps: the best fit of the places that both robots came by, each as its robot believed it to
+  /// be. The same as target_from_source without drift, and where they came by none in common.
+  Pose2 met_target_from_source;
+  double met_residual_m = 0;  ///< root mean square of what that fit leaves: how bent the maps are where they meet
   double overlap = 0;         ///< share of the source's known area that the target knows, 0..1
   bool truth_is_same = true;  ///< false: by its relation the pair shares nothing, and must not be merged
   double target_share = 0;    ///< as drawn: what wanted_overlap came to

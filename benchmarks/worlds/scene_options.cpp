@@ -39,6 +39,12 @@ void describe_pair(SceneOptions& scene, OptionList& list) {
       .add("length_m", scene.length_m, 0, 400,
            {"m", "Length of the world; 0: the kind's own. Its depth goes with it.",
             "time and maps grow with its square"})
+      .add("rearranged_share", scene.rearranged_share, 0, 1,
+           {"", "Share of the furniture that was moved, or taken away, before the source's robot came.",
+            "for kinds with furniture: office, flat, floors"})
+      .add("cleared", scene.cleared,
+           {"", "All furniture was taken away before the source's robot came: its map is like a plan.",
+            "for kinds with furniture"})
       .add("target_heading_deg", scene.target_heading_deg, -180, 180, {"deg", "Heading of the target's x axis.", ""})
       .add("rotation_deg", scene.rotation_deg, -180, 180,
            {"deg", "How far the source's frame is turned in the target's.", ""});
@@ -114,6 +120,11 @@ std::vector<std::string> scene_problems(SceneOptions options) {
   rule(options.length_m > 0 && (options.length_m < 10 || !world_grows(options.kind)),
        "length_m must be 0" + (world_grows(options.kind) ? std::string(" or at least 10")
                                                          : ": " + options.kind + " comes in one length only"));
+  const bool changed = options.rearranged_share > 0 || options.cleared;
+  rule(changed && !world_is_furnished(options.kind),
+       "rearranged_share and cleared need a kind with furniture: " + options.kind + " has none");
+  rule(changed && options.relation != "overlap", "rearranged_share and cleared need relation = overlap");
+  rule(options.rearranged_share > 0 && options.cleared, "what is cleared cannot be rearranged: leave out one of them");
   rule(options.relation == "two_floors" && options.kind != "floors", "relation = two_floors needs kind = floors");
   rule(options.relation == "two_ends" && (options.start == "same" || options.start == "near"),
        "relation = two_ends cannot start = " + options.start + ": the robots' parts do not meet");

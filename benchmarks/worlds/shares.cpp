@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "worlds/lidar.hpp"
+#include "worlds/point_fit.hpp"
 #include "worlds/survey.hpp"
 
 namespace gridmerge::worlds {
@@ -204,22 +205,59 @@ class ShareSearch {
 
 }  // namespace
 
+namespace {
+
+/// Where the target's robot and the source's came by one place, the source's surroundings as each believed them.
+std::vector<PointMatch> met_places(const Flight& target_flight, const Survey& target, const Flight& source_flight,
+                                   const Survey& source) {
+  constexpr double kNear = 4;    // [m] between the two
+  constexpr double kAround = 2;  // [m] from the source's robot
+  std::vector<PointMatch> matches;
+  for (std::size_t j = 0; j < source.map_from_robot.size(); ++j) {
+    const Pose2& there = source_flight.track.world_from_robot[j];
+    for (std::size_t i = 0; i < target.map_from_robot.size(); ++i) {
+      const Pose2& here = target_flight.track.world_from_robot[i];
+      const Point2 way = there.translation() - here.translation();
+      if (way.x_m * way.x_m + way.y_m * way.y_m > kNear * kNear) {
+        continue;
+      }
+      const Pose2 target_map_from_there = target.map_from_robot[i] * (inverse(here) * there);
+      for (const Point2& at : {Point2{kAround, 0}, Point2{-kAround, 0}, Point2{0, kAround}, Point2{0, -kAround}}) {
+        matches.push_back({.in_target = target_map_from_there * at, .in_source = source.map_from_robot[j] * at});
+      }
+    }
+  }
+  return matches;
+}
+
+}  // namespace
+
 MapPair draw_with_shares(const SceneOptions& options, double target_flown) {
   const Flight target_flight = flight_of(options, Role::kTarget, target_flown);
   const Flight source_flight = flight_of(options, Role::kSource);
   Survey target = survey_among(target_flight, source_flight.track, options);
   Survey source = survey_among(source_flight, target_flight.track, options);
+  const std::vector<PointMatch> met = options.relation == "overlap"
+                                          ? met_places(target_flight, target, source_flight, source)
+                                          : std::vector<PointMatch>{};
   MapPair pair = {
       .target = std::move(target.map),
       .source = std::move(source.map),
       .target_from_source = inverse(target.world_from_map) * first_world_from_second(options) * source.world_from_map,
+      .met_target_from_source = {},
       .truth_is_same = options.relation == "overlap",
       .target_share = options.target_share,
       .source_share = options.source_share,
       .target_flown = target_flown,
       .pose_error_m = root_mean_square(target.pose_error_m, source.pose_error_m),
       .pose_error_rad = root_mean_square(target.pose_error_rad, source.pose_error_rad)};
-  pair.overlap = overlap_of(pair.target, pair.source, pair.target_from_source);
+  pair.met_target_from_source = pair.target_from_source;
+  if (!met.empty()) {
+    const PointFit fit = fit_points(met);
+    pair.met_target_from_source = fit.target_from_source;
+    pair.met_residual_m = fit.residual_m;
+  }
+  pair.overlap = overlap_of(pair.target, pair.source, pair.met_target_from_source);
   return pair;
 }
 

@@ -133,10 +133,13 @@ class Jitter {
   double noise_rad_;
 };
 
-/// How far off the truth the poses are that were believed.
-class Errors {
+/// The poses that were believed, and how far off the truth they are.
+class Believed {
  public:
+  Believed() : map_from_robot_({Pose2{}}) {}
+
   void add(const Pose2& believed, const Pose2& truth) {
+    map_from_robot_.push_back(believed);
     const Point2 off = believed.translation() - truth.translation();
     const double turn_rad = wrap_angle(believed.theta_rad - truth.theta_rad);
     off2_m2_ += off.x_m * off.x_m + off.y_m * off.y_m;
@@ -145,8 +148,10 @@ class Errors {
   }
   [[nodiscard]] double distance_m() const { return std::sqrt(off2_m2_ / std::max(1, count_)); }
   [[nodiscard]] double angle_rad() const { return std::sqrt(turn2_rad2_ / std::max(1, count_)); }
+  [[nodiscard]] const std::vector<Pose2>& map_from_robot() const { return map_from_robot_; }
 
  private:
+  std::vector<Pose2> map_from_robot_;
   double off2_m2_ = 0;
   double turn2_rad2_ = 0;
   int count_ = 0;
@@ -176,34 +181,34 @@ class Odometry {
 };
 
 /// Dead reckoning: drawn from where odometry says the robot is.
-Errors map_on_given_poses(const Flight& flight, Eyes& eyes, Mapper& mapper, const SceneOptions& options) {
+Believed map_on_given_poses(const Flight& flight, Eyes& eyes, Mapper& mapper, const SceneOptions& options) {
   Odometry odometry(flight, options);
   Jitter jitter(options, flight.robot.name);
-  Errors errors;
+  Believed believed;
   const std::vector<Pose2>& stops = flight.track.world_from_robot;
   Pose2 map_from_lidar;
   mapper.add(map_from_lidar, eyes.scan(0));
   for (std::size_t i = 1; i < stops.size(); ++i) {
     map_from_lidar = odometry.told(i, map_from_lidar);
-    const Pose2 believed = jitter.off(map_from_lidar);
-    errors.add(believed, inverse(flight.track.world_from_map) * stops[i]);
-    mapper.add(believed, eyes.scan(i));
+    const Pose2 drawn_from = jitter.off(map_from_lidar);
+    believed.add(drawn_from, inverse(flight.track.world_from_map) * stops[i]);
+    mapper.add(drawn_from, eyes.scan(i));
   }
-  return errors;
+  return believed;
 }
 
 /// Each scan is matched to the map: from where odometry says that it was taken, or from where the last one was.
-Errors map_by_matching(const Flight& flight, Eyes& eyes, HectorMapper& mapper, const SceneOptions& options) {
+Believed map_by_matching(const Flight& flight, Eyes& eyes, HectorMapper& mapper, const SceneOptions& options) {
   Odometry odometry(flight, options);
-  Errors errors;
+  Believed believed;
   const std::vector<Pose2>& stops = flight.track.world_from_robot;
   Pose2 map_from_lidar = mapper.add({}, eyes.scan(0));
   for (std::size_t i = 1; i < stops.size(); ++i) {
     const Pose2 guess = options.odometry ? odometry.told(i, map_from_lidar) : map_from_lidar;
     map_from_lidar = mapper.add(guess, eyes.scan(i));
-    errors.add(map_from_lidar, inverse(flight.track.world_from_map) * stops[i]);
+    believed.add(map_from_lidar, inverse(flight.track.world_from_map) * stops[i]);
   }
-  return errors;
+  return believed;
 }
 
 /// On a square canvas with the start in its middle.
@@ -237,18 +242,18 @@ Survey survey(const Flight& flight, const std::vector<const Track*>& seen, const
   const double yaw_rad = flight.robot.origin_yaw_rad;
   const GridGeometry geometry = canvas(flight.track.world, inverse(world_from_map), yaw_rad, options);
   Eyes eyes(flight, seen, options);
-  const auto result = [&](const auto& mapper, const Errors& errors) {
+  const auto result = [&](const auto& mapper, const Believed& believed) {
     return Survey{published(mapper.grid(options.probabilistic), options.size_cells, yaw_rad), world_from_map,
-                  errors.distance_m(), errors.angle_rad()};
+                  believed.distance_m(), believed.angle_rad(), believed.map_from_robot()};
   };
   if (options.mapping == "slam") {
     HectorMapper mapper(geometry);
-    const Errors errors = map_by_matching(flight, eyes, mapper, options);
-    return result(mapper, errors);
+    const Believed believed = map_by_matching(flight, eyes, mapper, options);
+    return result(mapper, believed);
   }
   Mapper mapper(geometry);
-  const Errors errors = map_on_given_poses(flight, eyes, mapper, options);
-  return result(mapper, errors);
+  const Believed believed = map_on_given_poses(flight, eyes, mapper, options);
+  return result(mapper, believed);
 }
 
 }  // namespace gridmerge::worlds

@@ -37,11 +37,16 @@ struct World {
 /// Whether worlds of a kind can be had in another length, and how long they are as they come.
 /// @throws std::invalid_argument for an unknown kind
 [[nodiscard]] bool world_grows(std::string_view kind);
+/// Whether its worlds have furniture, that may be rearranged.
+[[nodiscard]] bool world_is_furnished(std::string_view kind);
 [[nodiscard]] double usual_length_m(std::string_view kind);
 
 struct WorldVariant {
   double length_m = 0;  ///< 0: the kind's own; others only where the kind grows. The depth goes with it.
   int storey = 0;       ///< of `floors`: the same walls, other furniture
+  /// Of kinds with furniture: this share of it is moved within its room, or taken away.
+  double rearranged_share = 0;
+  bool cleared = false;  ///< of all furniture
 };
 
 /// The same world for the same kind, seed and variant, on every machine.

@@ -6,8 +6,8 @@
 #include "benchmarks/manifest_samples.hpp"
 #include "manifest/halmstad.hpp"
 #include "manifest/npy_array.hpp"
-#include "manifest/point_fit.hpp"
 #include "map_server/raster_image.hpp"
+#include "worlds/point_fit.hpp"
 
 namespace gridmerge {
 namespace {

@@ -1,4 +1,4 @@
-#include "manifest/point_fit.hpp"
+#include "worlds/point_fit.hpp"
 
 #include <cmath>
 
