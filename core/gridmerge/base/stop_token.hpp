@@ -1,5 +1,6 @@
 #pragma once
 /// When to stop early: a deadline, a budget of iterations, or somebody's word.
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <limits>
@@ -30,6 +31,13 @@ class StopToken {
 
   void cancel() const { *cancelled_ = true; }
   [[nodiscard]] bool stop_requested() const { return *cancelled_ || (deadline_ && Clock::now() >= *deadline_); }
+  /// Until the deadline, 0 when it is past; none where there is no deadline.
+  [[nodiscard]] std::optional<double> seconds_left() const {
+    if (!deadline_) {
+      return std::nullopt;
+    }
+    return std::max(0.0, std::chrono::duration<double>(*deadline_ - Clock::now()).count());
+  }
   [[nodiscard]] int iteration_budget() const { return iterations_; }
 
  private:

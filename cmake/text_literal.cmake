@@ -1,0 +1,15 @@
+# The text of a file as an expression of the type std::string. A literal may be 64 KiB long everywhere, so longer texts
+# are cut into pieces.
+function(text_literal file result)
+  set(piece 60000)
+  file(READ ${file} text)
+  string(LENGTH "${text}" length)
+  set(expression "std::string()")
+  set(from 0)
+  while(from LESS length)
+    string(SUBSTRING "${text}" ${from} ${piece} part)
+    string(APPEND expression "\n      .append(R\"~file~(${part})~file~\")")
+    math(EXPR from "${from} + ${piece}")
+  endwhile()
+  set(${result} "${expression}" PARENT_SCOPE)
+endfunction()
