@@ -76,6 +76,12 @@ struct MergerTraits {
   bool warm_start = false;   ///< takes up AlignRequest::carried
 };
 
+/// What is expected of a method on a pair of maps.
+struct Bid {
+  double success = 0;  ///< chance that its answer is merged, and rightly, where the maps overlap: 0..1
+  double seconds = 0;  ///< of the whole alignment, on one thread
+};
+
 /// A method. Const and reentrant: no state between calls, no printing, no files.
 class Merger {
  public:
@@ -83,6 +89,8 @@ class Merger {
   [[nodiscard]] virtual MergerTraits traits() const = 0;
   /// Why this method cannot work on these maps, in one sentence; none: it can.
   [[nodiscard]] virtual std::optional<std::string> objection(const AlignRequest& /*request*/) const { return {}; }
+  /// What to expect of it on these maps, where the method knows better than what was learned of it (BidBook). Soon.
+  [[nodiscard]] virtual std::optional<Bid> bid(const AlignRequest& /*request*/) const { return {}; }
   /// Ranked poses. Both maps hold at least one occupied cell, and `objection` has found nothing.
   [[nodiscard]] virtual Proposal propose(const AlignRequest& request, const RunContext& context) const = 0;
 };

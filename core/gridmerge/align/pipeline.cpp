@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "gridmerge/align/correlation_sweep.hpp"
+#include "gridmerge/align/decoy.hpp"
 #include "gridmerge/base/parallel.hpp"
 
 namespace gridmerge {
@@ -69,14 +69,11 @@ std::vector<Hypothesis> distinct(std::vector<Hypothesis> ranked, Point2 source_c
   return kept;
 }
 
-/// The poses of a coarse sweep that stand out: what a method that climbs one hill has not looked at.
-std::vector<Candidate> rivals(const AlignRequest& request, const RunContext& context) {
+/// The poses of the coarse sweep that stand out: what a method that climbs one hill has not looked at.
+std::vector<Candidate> rivals(const AlignRequest& request, const SweepResult& survey) {
   constexpr std::size_t kRivals = 24;
-  const SweepOptions sweep{.lattice = {.angle_step_rad = radians(3), .coarsest_level = 3, .max_cells = 200},
-                           .peaks_per_angle = 6};
-  const SweepResult found = correlation_sweep(request.target, request.source, window_of(request), sweep, context);
   std::vector<Candidate> candidates;
-  for (const ScoredPose& peak : found.peaks) {
+  for (const ScoredPose& peak : survey.peaks) {
     const Pose2 pose = from_local(peak.pose, request.target, request.source);
     const bool taken = std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& other) {
       const PoseDifference apart = difference_at(request.source.centre_in_map(), other.target_from_source, pose);
@@ -97,6 +94,155 @@ void rank(std::vector<Hypothesis>& hypotheses) {
                    [](const Hypothesis& a, const Hypothesis& b) { return a.figures.support_m > b.figures.support_m; });
 }
 
+/// The poses of one alignment, of one method or several, and what is said of them.
+class Search {
+ public:
+  Search(const AlignRequest& request, const PipelineOptions& options, const RunContext& context)
+      : request_(request),
+        options_(options),
+        context_(context),
+        evaluator_(request.target, request.source, options.evaluator) {
+    alignment_.seconds.judge += watch_.lap();
+  }
+
+  /// Adds what a method proposes; judges all that there is by then.
+  void add(const Merger& method, const std::string& name) {
+    std::vector<Candidate> candidates = proposed_by(method, name);
+    const std::size_t proposed = candidates.size();
+    alignment_.seconds.propose += watch_.lap();
+    if (proposed > 0 && !background_.decoy && !context_.stop.stop_requested()) {
+      const std::vector<Candidate> others = survey();
+      candidates.insert(candidates.end(), others.begin(), others.end());
+    }
+    std::vector<Hypothesis> added = evaluated(candidates, proposed);
+    alignment_.seconds.judge += watch_.lap();
+    if (options_.refine || proposed < added.size()) {
+      refine(added, proposed);
+      alignment_.seconds.refine += watch_.lap();
+    }
+    hypotheses_.insert(hypotheses_.end(), std::make_move_iterator(added.begin()), std::make_move_iterator(added.end()));
+    rank(hypotheses_);
+    judge_all();
+    alignment_.seconds.judge += watch_.lap();
+  }
+
+  [[nodiscard]] const Alignment& judged() const { return alignment_; }
+
+ private:
+  std::vector<Candidate> proposed_by(const Merger& method, const std::string& name) {
+    Proposal proposal = method.propose(request_, context_);
+    if (!proposal.carry.target_from_source.empty()) {
+      alignment_.carry = std::move(proposal.carry);
+    }
+    for (const std::string& remark : proposal.remarks) {
+      alignment_.remarks.push_back((name.empty() ? "" : name + ": ") + remark);
+    }
+    alignment_.iterations += proposal.iterations;
+    alignment_.stopped = proposal.stopped;
+    background_.surveyed = background_.surveyed || proposal.surveyed;
+    return std::move(proposal.candidates);
+  }
+
+  /// Looks at all poses, and at those of the mirrored source. @return rivals, where the methods may have overlooked any
+  std::vector<Candidate> survey() {
+    const SweepResult sweep =
+        correlation_sweep(request_.target, request_.source, window_of(request_), survey_options(), context_);
+    background_.decoy = decoy_level(sweep, request_, context_);
+    if (context_.stop.stop_requested()) {
+      background_.decoy.reset();
+      alignment_.stopped = true;
+      return {};
+    }
+    const bool wanted = !background_.surveyed;
+    background_.surveyed = true;
+    return wanted ? rivals(request_, sweep) : std::vector<Candidate>{};
+  }
+
+  [[nodiscard]] std::vector<Hypothesis> evaluated(const std::vector<Candidate>& candidates,
+                                                  std::size_t proposed) const {
+    std::vector<Hypothesis> hypotheses(candidates.size());
+    parallel_for(hypotheses.size(), context_.num_threads, [&](std::size_t i, std::size_t) {
+      const Candidate& candidate = candidates[i];
+      hypotheses[i] = {.target_from_source = {candidate.target_from_source, std::nullopt},
+                       .figures = evaluator_.wall_figures(candidate.target_from_source),
+                       .method_score = candidate.method_score,
+                       .proposed = i < proposed};
+    });
+    rank(hypotheses);
+    return hypotheses;
+  }
+
+  void refine(std::vector<Hypothesis>& hypotheses, std::size_t proposed) {
+    const std::optional<PoseWindow> window = window_of(request_);
+    announce(context_, "refine");
+    if (!refiner_) {
+      refiner_.emplace(request_.target, request_.source, options_.refinement);
+    }
+    // A rival that the pipeline found comes on top: the method's own best must not fall out of the refinement for it.
+    const auto own = static_cast<std::size_t>(options_.refined_candidates);
+    const std::size_t count = std::min(hypotheses.size(), proposed < hypotheses.size() ? 2 * own : own);
+    parallel_for(count, context_.num_threads, [&](std::size_t i, std::size_t) {
+      Hypothesis& one = hypotheses[i];
+      if (one.proposed && !options_.refine) {
+        return;
+      }
+      const PoseEstimate refined = (*refiner_)(one.target_from_source.pose);
+      const Figures figures = evaluator_.wall_figures(refined.pose);
+      one.target_from_source.covariance = refined.covariance;
+      if (!inside(to_local(refined.pose, request_.target, request_.source), window)) {
+        return;
+      }
+      // Within its tolerance the evidence says little: there the refinement knows better. Where they clearly disagree,
+      // little agrees at all, and the evidence is what is judged by.
+      if (figures.evidence_m >= kEvidenceKept * one.figures.evidence_m) {
+        one.target_from_source.pose = refined.pose;
+        one.figures = figures;
+      }
+    });
+  }
+
+  void judge_all() {
+    announce(context_, "judge");
+    std::vector<Hypothesis>& listed = alignment_.hypotheses;
+    listed = distinct(hypotheses_, request_.source.centre_in_map(), options_.verdict,
+                      static_cast<std::size_t>(std::max(2, options_.hypotheses)));
+    if (!listed.empty()) {
+      // All figures of the best, of its strongest rival, and of those without conflict: they enter the verdict.
+      const std::size_t rival = strongest_rival(listed);
+      parallel_for(listed.size(), context_.num_threads, [&](std::size_t i, std::size_t) {
+        Hypothesis& one = listed[i];
+        if (i == 0 || i == rival || is_spotless(one, options_.verdict)) {
+          one.figures = evaluator_.figures(one.target_from_source.pose);
+        }
+      });
+      if (background_.random.poses == 0) {
+        background_.random = evaluator_.random_level(context_.seed);
+      }
+    }
+    alignment_.random_level = background_.random;
+    Background background = background_;
+    background.surveyed = background.surveyed && background.decoy;
+    alignment_.verdict = judge(listed, background, options_.verdict);
+    alignment_.outcome = listed.empty() && alignment_.stopped ? Outcome::kStopped : alignment_.verdict.outcome;
+    alignment_.confidence = alignment_.verdict.confidence;
+    alignment_.reasons = alignment_.verdict.reasons;
+    if (alignment_.stopped) {
+      alignment_.reasons.push_back("stopped early: the best so far");
+    }
+    listed.resize(std::min(listed.size(), static_cast<std::size_t>(options_.hypotheses)));
+  }
+
+  const AlignRequest& request_;
+  const PipelineOptions& options_;
+  const RunContext& context_;
+  Stopwatch watch_;
+  Evaluator evaluator_;
+  std::optional<Refiner> refiner_;
+  Background background_{.random = {}, .decoy = {}, .surveyed = false};
+  std::vector<Hypothesis> hypotheses_;  ///< of all methods, most support first
+  Alignment alignment_;
+};
+
 }  // namespace
 
 void PipelineOptions::describe(OptionList& list) {
@@ -108,6 +254,11 @@ void PipelineOptions::describe(OptionList& list) {
 
 Alignment align(const AlignInput& input, const Merger& method, const PipelineOptions& options,
                 const RunContext& context) {
+  return align(input, OneMethod(method, ""), options, context);
+}
+
+Alignment align(const AlignInput& input, const Chooser& methods, const PipelineOptions& options,
+                const RunContext& context) {
   Stopwatch total;
   check_grid(input.target);
   check_grid(input.source);
@@ -116,7 +267,7 @@ Alignment align(const AlignInput& input, const Merger& method, const PipelineOpt
   const PreparedMap target(input.target, resolution_m, options.prepare, context.num_threads);
   const PreparedMap source(input.source, resolution_m, options.prepare, context.num_threads);
   const double prepared = total.lap();
-  Alignment alignment = align_prepared({target, source, input.prior, input.carried}, method, options, context);
+  Alignment alignment = align_prepared({target, source, input.prior, input.carried}, methods, options, context);
   alignment.seconds.prepare = prepared;
   alignment.seconds.align = prepared + total.lap();
   return alignment;
@@ -124,102 +275,48 @@ Alignment align(const AlignInput& input, const Merger& method, const PipelineOpt
 
 Alignment align_prepared(const AlignRequest& request, const Merger& method, const PipelineOptions& options,
                          const RunContext& context) {
+  return align_prepared(request, OneMethod(method, ""), options, context);
+}
+
+Alignment align_prepared(const AlignRequest& request, const Chooser& methods, const PipelineOptions& options,
+                         const RunContext& context) {
   require_valid(options, "pipeline");
   require_valid(options.refinement, "refine");
   require_valid(options.verdict, "verdict");
-  const PreparedMap& target = request.target;
-  const PreparedMap& source = request.source;
-  for (const std::optional<std::string>& why : {unusable(target, "target"), unusable(source, "source")}) {
+  for (const std::optional<std::string>& why :
+       {unusable(request.target, "target"), unusable(request.source, "source")}) {
     if (why) {
       return declined(*why);
     }
   }
-  if (const std::optional<std::string> objection = method.objection(request)) {
-    return declined(*objection);
+  Stopwatch total;
+  const std::unique_ptr<Choice> choice = methods.begin(request, context);
+  const double choosing_s = total.lap();
+  std::optional<Search> search;
+  std::vector<Attempt> tried;
+  std::string objection = "no method takes these maps";
+  while (const std::optional<MethodPick> pick = choice->next(tried)) {
+    if (const std::optional<std::string> objects = pick->method->objection(request)) {
+      objection = *objects;
+      tried.push_back({.method = pick->name, .why = pick->why, .outcome = Outcome::kDeclined});
+      continue;
+    }
+    if (!search) {
+      search.emplace(request, options, context);
+    }
+    Stopwatch attempt;
+    search->add(*pick->method, pick->name);
+    const Alignment& so_far = search->judged();
+    tried.push_back({pick->name, pick->why, so_far.outcome, so_far.confidence, attempt.lap()});
+    if (so_far.outcome == Outcome::kMerged || context.stop.stop_requested()) {
+      break;
+    }
   }
-
-  Stopwatch watch;
-  Alignment alignment;
-  Proposal proposal = method.propose(request, context);
-  alignment.carry = std::move(proposal.carry);
-  alignment.remarks = std::move(proposal.remarks);
-  alignment.iterations = proposal.iterations;
-  alignment.stopped = proposal.stopped;
-  std::vector<Candidate> candidates = std::move(proposal.candidates);
-  const std::size_t proposed = candidates.size();
-  if (!proposal.surveyed && proposed > 0 && !context.stop.stop_requested()) {
-    const std::vector<Candidate> others = rivals(request, context);
-    candidates.insert(candidates.end(), others.begin(), others.end());
-    proposal.surveyed = !context.stop.stop_requested();
-    alignment.stopped = alignment.stopped || !proposal.surveyed;
-  }
-  alignment.seconds.propose = watch.lap();
-
-  const Evaluator evaluator(target, source, options.evaluator);
-  std::vector<Hypothesis> hypotheses(candidates.size());
-  parallel_for(hypotheses.size(), context.num_threads, [&](std::size_t i, std::size_t) {
-    const Candidate& candidate = candidates[i];
-    hypotheses[i] = {.target_from_source = {candidate.target_from_source, std::nullopt},
-                     .figures = evaluator.wall_figures(candidate.target_from_source),
-                     .method_score = candidate.method_score,
-                     .proposed = i < proposed};
-  });
-  rank(hypotheses);
-  alignment.seconds.judge = watch.lap();
-
-  if (options.refine || proposed < hypotheses.size()) {
-    const std::optional<PoseWindow> window = window_of(request);
-    const Refiner refiner(target, source, options.refinement);
-    announce(context, "refine");
-    // A rival that the pipeline found comes on top: the method's own best must not fall out of the refinement for it.
-    const auto own = static_cast<std::size_t>(options.refined_candidates);
-    const std::size_t count = std::min(hypotheses.size(), proposed < hypotheses.size() ? 2 * own : own);
-    parallel_for(count, context.num_threads, [&](std::size_t i, std::size_t) {
-      Hypothesis& one = hypotheses[i];
-      if (one.proposed && !options.refine) {
-        return;
-      }
-      const PoseEstimate refined = refiner(one.target_from_source.pose);
-      const Figures figures = evaluator.wall_figures(refined.pose);
-      one.target_from_source.covariance = refined.covariance;
-      if (!inside(to_local(refined.pose, target, source), window)) {
-        return;
-      }
-      // Within its tolerance the evidence says little: there the refinement knows better. Where they clearly disagree,
-      // little agrees at all, and the evidence is what is judged by.
-      if (figures.evidence_m >= kEvidenceKept * one.figures.evidence_m) {
-        one.target_from_source.pose = refined.pose;
-        one.figures = figures;
-      }
-    });
-    rank(hypotheses);
-    alignment.seconds.refine = watch.lap();
-  }
-
-  announce(context, "judge");
-  alignment.hypotheses = distinct(hypotheses, source.centre_in_map(), options.verdict,
-                                  static_cast<std::size_t>(std::max(2, options.hypotheses)));
-  if (!alignment.hypotheses.empty()) {
-    // All figures of the best, of its strongest rival, and of those without conflict: they enter the verdict.
-    const std::size_t rival = strongest_rival(alignment.hypotheses);
-    parallel_for(alignment.hypotheses.size(), context.num_threads, [&](std::size_t i, std::size_t) {
-      Hypothesis& one = alignment.hypotheses[i];
-      if (i == 0 || i == rival || is_spotless(one, options.verdict)) {
-        one.figures = evaluator.figures(one.target_from_source.pose);
-      }
-    });
-    alignment.random_level = evaluator.random_level(context.seed);
-  }
-  alignment.verdict = judge(alignment.hypotheses, alignment.random_level, options.verdict, proposal.surveyed);
-  alignment.outcome = alignment.hypotheses.empty() && alignment.stopped ? Outcome::kStopped : alignment.verdict.outcome;
-  alignment.confidence = alignment.verdict.confidence;
-  alignment.reasons = alignment.verdict.reasons;
-  if (alignment.stopped) {
-    alignment.reasons.push_back("stopped early: the best so far");
-  }
-  alignment.hypotheses.resize(std::min(alignment.hypotheses.size(), static_cast<std::size_t>(options.hypotheses)));
-  alignment.seconds.judge += watch.lap();
-  alignment.seconds.align = alignment.seconds.propose + alignment.seconds.refine + alignment.seconds.judge;
+  Alignment alignment = search ? search->judged() : declined(objection);
+  alignment.attempts = std::move(tried);
+  alignment.story = choice->story();
+  alignment.seconds.choose = choosing_s;
+  alignment.seconds.align = choosing_s + alignment.seconds.propose + alignment.seconds.refine + alignment.seconds.judge;
   return alignment;
 }
 

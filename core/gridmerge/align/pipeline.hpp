@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gridmerge/align/chooser.hpp"
 #include "gridmerge/align/merger.hpp"
 #include "gridmerge/align/refine.hpp"
 #include "gridmerge/judge/verdict.hpp"
@@ -14,7 +15,7 @@ namespace gridmerge {
 struct PipelineOptions {
   bool refine = true;          ///< off: the method's poses as they come
   int refined_candidates = 8;  ///< of the candidates, by evidence, so many are refined
-  int hypotheses = 5;          ///< listed in the result
+  int hypotheses = 8;          ///< listed in the result
   PrepareOptions prepare;
   RefineOptions refinement;
   EvaluatorOptions evaluator;
@@ -26,6 +27,7 @@ struct PipelineOptions {
 /// Wall-clock time of each step [s].
 struct StepSeconds {
   double prepare = 0;
+  double choose = 0;  ///< which method; 0 where there is no choice
   double propose = 0;
   double refine = 0;
   double judge = 0;
@@ -43,7 +45,9 @@ struct Alignment {
   StepSeconds seconds;
   Population carry;  ///< for the next epoch
   int iterations = 0;
-  bool stopped = false;  ///< ended early; the answer is the best so far
+  std::vector<Attempt> attempts;   ///< the methods in the order tried; with one method, one
+  std::vector<std::string> story;  ///< of the choice of method, in words; empty where there was none
+  bool stopped = false;            ///< ended early; the answer is the best so far
 };
 
 struct AlignInput {
@@ -60,6 +64,13 @@ struct AlignInput {
 
 /// The same on maps that are already prepared, at one resolution: for whoever aligns a map with many others.
 [[nodiscard]] Alignment align_prepared(const AlignRequest& request, const Merger& method,
+                                       const PipelineOptions& options, const RunContext& context);
+
+/// With a choice of methods: one after the other, until what they have found together is merged or the Choice has had
+/// enough. The poses of all are judged as one set, so a method tried later can only add rivals or find a better pose.
+[[nodiscard]] Alignment align(const AlignInput& input, const Chooser& methods, const PipelineOptions& options,
+                              const RunContext& context);
+[[nodiscard]] Alignment align_prepared(const AlignRequest& request, const Chooser& methods,
                                        const PipelineOptions& options, const RunContext& context);
 
 }  // namespace gridmerge

@@ -260,6 +260,34 @@ PreparedMap::PreparedMap(const OccupancyGrid& grid, double resolution_m, const P
                [&](std::size_t k, std::size_t) { levels_[k].wall_distance_m = wall_distances(levels_[k]); });
 }
 
+PreparedMap PreparedMap::mirrored() const {
+  const auto flip_rows = [](auto& cells, int width, int height) {
+    for (int row = 0; row < height / 2; ++row) {
+      const auto below = cells.begin() + static_cast<std::ptrdiff_t>(row) * width;
+      std::swap_ranges(below, below + width, cells.begin() + static_cast<std::ptrdiff_t>(height - 1 - row) * width);
+    }
+  };
+  PreparedMap flipped = *this;
+  flipped.map_from_local_ = {};
+  if (!occupancy_.empty()) {
+    flip_rows(flipped.occupancy_, level(0).width, level(0).height);
+  }
+  for (MapLevel& level : flipped.levels_) {
+    flip_rows(level.state, level.width, level.height);
+    flip_rows(level.wall_distance_m, level.width, level.height);
+    level.lower_left.y_m = -(level.lower_left.y_m + level.height * level.resolution_m);
+  }
+  for (WallPoint& wall : flipped.walls_) {
+    wall.at.y_m = -wall.at.y_m;
+    wall.free_normal.y_m = -wall.free_normal.y_m;
+    wall.surface_normal.y_m = -wall.surface_normal.y_m;
+  }
+  // Row by row from below, as the constructor lists them.
+  std::stable_sort(flipped.walls_.begin(), flipped.walls_.end(),
+                   [](const WallPoint& a, const WallPoint& b) { return a.at.y_m < b.at.y_m; });
+  return flipped;
+}
+
 double common_resolution_m(const OccupancyGrid& a, const OccupancyGrid& b, const PrepareOptions& options) {
   return std::max({a.geometry.resolution_m, b.geometry.resolution_m, options.finest_resolution_m});
 }

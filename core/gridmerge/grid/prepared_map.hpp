@@ -68,6 +68,10 @@ class PreparedMap {
   /// @throws std::invalid_argument if the options or the resolution are out of range
   PreparedMap(const OccupancyGrid& grid, double resolution_m, const PrepareOptions& options = {}, int num_threads = 1);
 
+  /// The map as a mirror along the local x axis shows it: a place as large, with walls as many and as straight, that is
+  /// not there. Its local frame stands for its map frame as well.
+  [[nodiscard]] PreparedMap mirrored() const;
+
   [[nodiscard]] const Pose2& map_from_local() const { return map_from_local_; }
   [[nodiscard]] double resolution_m() const { return resolution_m_; }
   /// Level 0 is the finest; each next one has cells twice as wide. Level 0 alone where nothing is known.
@@ -82,6 +86,8 @@ class PreparedMap {
   [[nodiscard]] Point2 centre_in_map() const { return map_from_local_.translation(); }
 
  private:
+  PreparedMap() = default;
+
   Pose2 map_from_local_;
   double resolution_m_ = 0;
   double radius_m_ = 0;

@@ -6,28 +6,10 @@
 #include <opencv2/imgproc.hpp>
 
 #include "gridmerge/base/random.hpp"
+#include "gridmerge/judge/elastic.hpp"
 
 namespace gridmerge {
 namespace {
-
-/// An affine map from points of one local frame to cells of a level of the other.
-struct ToCells {
-  float c, s, x0, y0;
-
-  ToCells(const MapLevel& level, const Pose2& level_from_points) {
-    const double scale = 1 / level.resolution_m;
-    c = static_cast<float>(std::cos(level_from_points.theta_rad) * scale);
-    s = static_cast<float>(std::sin(level_from_points.theta_rad) * scale);
-    x0 = static_cast<float>((level_from_points.x_m - level.lower_left.x_m) * scale);
-    y0 = static_cast<float>((level_from_points.y_m - level.lower_left.y_m) * scale);
-  }
-  [[nodiscard]] int column(Point2f p) const { return cell(c * p.x_m - s * p.y_m + x0); }
-  [[nodiscard]] int row(Point2f p) const { return cell(s * p.x_m + c * p.y_m + y0); }
-  /// The cell that holds a coordinate. Far outside of any map it stops counting, so that sums cannot overflow.
-  [[nodiscard]] static int cell(float coordinate) {
-    return static_cast<int>(std::floor(std::clamp(coordinate, -1e6F, 1e6F)));
-  }
-};
 
 Point2f cell_centre(const MapLevel& level, int column, int row) {
   return {static_cast<float>(level.lower_left.x_m + (column + 0.5) * level.resolution_m),
@@ -96,6 +78,10 @@ std::vector<std::pair<std::string, double>> Figures::named() const {
           {"conflict_share", conflict_share},
           {"far_conflict_share", far_conflict_share},
           {"same_side_share", same_side_share},
+          {"both_far_conflict_share", both_far_conflict_share},
+          {"small_conflict_share", small_conflict_share},
+          {"elastic_conflict_share", elastic_conflict_share},
+          {"elastic_roughness_m", elastic_roughness_m},
           {"source_walls_m", source_in_target.all_m},
           {"source_confirmed_m", source_in_target.confirmed_m},
           {"source_same_side_m", source_in_target.same_side_m},
@@ -122,33 +108,17 @@ std::vector<std::pair<std::string, double>> Figures::named() const {
 Evaluator::Evaluator(const PreparedMap& target, const PreparedMap& source, EvaluatorOptions options)
     : options_(options) {
   require_valid(options_, "evaluator");
-  target_ = side_of(target);
-  source_ = side_of(source);
+  target_ = sided_map(target, options_.tolerance_m, options_.max_points);
+  source_ = sided_map(source, options_.tolerance_m, options_.max_points);
 }
 
-Evaluator::Side Evaluator::side_of(const PreparedMap& map) const {
-  Side side;
-  side.map = &map;
-  side.seen_from = sides_within(map, options_.tolerance_m);
-  const auto limit = static_cast<std::size_t>(options_.max_points);
-  const std::size_t step = std::max<std::size_t>(1, (map.walls().size() + limit - 1) / limit);
-  side.metres_a_wall = static_cast<double>(step) * map.level(0).resolution_m;
-  for (std::size_t i = 0; i < map.walls().size(); i += step) {
-    side.walls.push_back({map.walls()[i].at, WallSide(map.walls()[i])});
-  }
-  return side;
-}
-
-WallMeeting Evaluator::meet(const Side& fixed, const Side& moving, const Pose2& fixed_from_moving) const {
+WallMeeting Evaluator::meet(const SidedMap& fixed, const SidedMap& moving, const Pose2& fixed_from_moving) const {
   const MapLevel& level = fixed.map->level(0);
   const ToCells to(level, fixed_from_moving);
-  const int turn = static_cast<int>(std::lround(fixed_from_moving.theta_rad / (2 * kPi) * 64));
-  const float clear_m = static_cast<float>(options_.tolerance_m + level.resolution_m);
-  double confirmed = 0;
-  double same_side = 0;
-  double in_free = 0;
-  double far_in_free = 0;
-  const float far_m = static_cast<float>(3 * options_.tolerance_m);
+  const int turn = turn_64ths(fixed_from_moving);
+  const auto clear_m = static_cast<float>(options_.tolerance_m + level.resolution_m);
+  const auto far_m = static_cast<float>(3 * options_.tolerance_m);
+  WallMeeting met;  // in walls, to begin with
   for (const SidedWall& wall : moving.walls) {
     const int column = to.column(wall.at);
     const int row = to.row(wall.at);
@@ -157,21 +127,24 @@ WallMeeting Evaluator::meet(const Side& fixed, const Side& moving, const Pose2& 
     }
     const std::size_t at = level.offset(column, row);
     if (const std::uint8_t seen_from = fixed.seen_from[at]; seen_from != 0) {
-      confirmed += 1;
-      same_side += wall.side.known ? (seen_from >> wall.side.octant_after_64ths(turn)) & 1 : 0.5;
+      const double same = same_side(wall, seen_from, turn);
+      met.confirmed_m += 1;
+      met.same_side_m += same;
+      met.small_same_side_m += wall.small ? same : 0;
     } else if (level.state[at] == CellState::kOpen && level.wall_distance_m[at] > clear_m) {
-      in_free += 1;
-      far_in_free += level.wall_distance_m[at] > far_m ? 1 : 0;
+      met.in_free_m += 1;
+      met.far_in_free_m += level.wall_distance_m[at] > far_m ? 1 : 0;
+      met.small_in_free_m += wall.small ? 1 : 0;
     }
   }
-  const double unit = moving.metres_a_wall;
-  const double all = static_cast<double>(moving.walls.size());
-  return {.all_m = all * unit,
-          .confirmed_m = confirmed * unit,
-          .same_side_m = same_side * unit,
-          .in_free_m = in_free * unit,
-          .far_in_free_m = far_in_free * unit,
-          .unseen_m = (all - confirmed - in_free) * unit};
+  met.all_m = static_cast<double>(moving.walls.size());
+  met.unseen_m = met.all_m - met.confirmed_m - met.in_free_m;
+  for (double WallMeeting::*length :
+       {&WallMeeting::all_m, &WallMeeting::confirmed_m, &WallMeeting::same_side_m, &WallMeeting::small_same_side_m,
+        &WallMeeting::in_free_m, &WallMeeting::far_in_free_m, &WallMeeting::small_in_free_m, &WallMeeting::unseen_m}) {
+    met.*length *= moving.metres_a_wall;
+  }
+  return met;
 }
 
 double Evaluator::evidence_m(const Pose2& target_from_source) const {
@@ -194,15 +167,29 @@ Figures Evaluator::wall_figures(const Pose2& target_from_source) const {
   f.conflict_share = share(in_free, same_side);
   f.far_conflict_share = share(far_in_free, same_side);
   f.same_side_share = confirmed > 0 ? same_side / confirmed : 0;
+  f.both_far_conflict_share = std::min(share(f.source_in_target.far_in_free_m, f.source_in_target.same_side_m),
+                                       share(f.target_in_source.far_in_free_m, f.target_in_source.same_side_m));
+  const double small_same = f.source_in_target.small_same_side_m + f.target_in_source.small_same_side_m;
+  const double small_free = f.source_in_target.small_in_free_m + f.target_in_source.small_in_free_m;
+  f.small_conflict_share = (small_free + 0.5) / (small_free + small_same + 1);
   return f;
 }
 
 Figures Evaluator::figures(const Pose2& target_from_source) const {
   Figures f = wall_figures(target_from_source);
   const Pose2 local = to_local(target_from_source, *target_.map, *source_.map);
+  add_elastic_figures(f, local);
   add_cell_figures(f, local);
   add_random_walk_figures(f, local);
   return f;
+}
+
+void Evaluator::add_elastic_figures(Figures& figures, const Pose2& local) const {
+  const ElasticMeeting there = meet_elastically(target_, source_, local, options_.tolerance_m);
+  const ElasticMeeting back = meet_elastically(source_, target_, inverse(local), options_.tolerance_m);
+  figures.elastic_conflict_share = share(there.in_free_m + back.in_free_m, there.same_side_m + back.same_side_m);
+  const double beside_m = there.beside_m + back.beside_m;
+  figures.elastic_roughness_m = beside_m > 0 ? (there.shift_m + back.shift_m) / beside_m : 0;
 }
 
 void Evaluator::add_cell_figures(Figures& figures, const Pose2& local) const {

@@ -7,7 +7,7 @@
 
 #include "gridmerge/base/options.hpp"
 #include "gridmerge/grid/prepared_map.hpp"
-#include "gridmerge/grid/wall_sides.hpp"
+#include "gridmerge/judge/sided_map.hpp"
 
 namespace gridmerge {
 
@@ -25,12 +25,14 @@ struct EvaluatorOptions {
 /// What the walls of one map meet in the other. Lengths [m]: cells times resolution, so a wall two cells thick counts
 /// twice.
 struct WallMeeting {
-  double all_m = 0;          ///< every wall cell
-  double confirmed_m = 0;    ///< a wall of the other map lies within the tolerance ...
-  double same_side_m = 0;    ///< ... and was seen from the same side
-  double in_free_m = 0;      ///< stands in the other map's free space, beyond the tolerance of any wall
-  double far_in_free_m = 0;  ///< of in_free_m: farther than three tolerances from any wall, so no mere drift
-  double unseen_m = 0;       ///< the rest: the other map does not know
+  double all_m = 0;              ///< every wall cell
+  double confirmed_m = 0;        ///< a wall of the other map lies within the tolerance ...
+  double same_side_m = 0;        ///< ... and was seen from the same side
+  double small_same_side_m = 0;  ///< ... and is of a piece less than two metres wide, as furniture is
+  double in_free_m = 0;          ///< stands in the other map's free space, beyond the tolerance of any wall
+  double far_in_free_m = 0;      ///< of in_free_m: farther than three tolerances from any wall, so no mere drift
+  double small_in_free_m = 0;    ///< of in_free_m: of a piece less than two metres wide
+  double unseen_m = 0;           ///< the rest: the other map does not know
 };
 
 /// Everything by which a pose is judged. Swap the maps and invert the pose, and it stays: exactly but for the cell by
@@ -46,6 +48,16 @@ struct Figures {
   double conflict_share = 0;      ///< in_free_m / (in_free_m + same_side_m), both ways
   double far_conflict_share = 0;  ///< far_in_free_m / (far_in_free_m + same_side_m), both ways
   double same_side_share = 0;     ///< same_side_m / confirmed_m, both ways
+  /// The lesser of far_in_free_m / (far_in_free_m + same_side_m) of the two ways: a plan lacks the furniture, but what
+  /// each map has where the other is free was moved, or is of another place.
+  double both_far_conflict_share = 0;
+  /// Of the small pieces alone, in_free / (in_free + same_side), both ways, with half a metre more of each: where there
+  /// are none, nothing is known.
+  double small_conflict_share = 0;
+
+  // With every patch shifted by itself (elastic.hpp).
+  double elastic_conflict_share = 0;  ///< in_free_m / (in_free_m + same_side_m), both ways
+  double elastic_roughness_m = 0;     ///< how far the shifts of neighbouring patches differ, on average, both ways
 
   // Cell by cell, source cells read on the target's nearest cells.
   double overlap_area_m2 = 0;     ///< known in both
@@ -86,25 +98,14 @@ class Evaluator {
   [[nodiscard]] RandomLevel random_level(std::uint64_t seed) const;
 
  private:
-  struct SidedWall {
-    Point2f at;
-    WallSide side;
-  };
-  struct Side {
-    const PreparedMap* map = nullptr;
-    std::vector<SidedWall> walls;
-    double metres_a_wall = 0;
-    /// sides_within the tolerance.
-    std::vector<std::uint8_t> seen_from;
-  };
-  [[nodiscard]] Side side_of(const PreparedMap& map) const;
-  [[nodiscard]] WallMeeting meet(const Side& fixed, const Side& moving, const Pose2& fixed_from_moving) const;
+  [[nodiscard]] WallMeeting meet(const SidedMap& fixed, const SidedMap& moving, const Pose2& fixed_from_moving) const;
+  void add_elastic_figures(Figures& figures, const Pose2& local) const;
   void add_cell_figures(Figures& figures, const Pose2& local) const;
   void add_random_walk_figures(Figures& figures, const Pose2& local) const;
 
   EvaluatorOptions options_;
-  Side target_;
-  Side source_;
+  SidedMap target_;
+  SidedMap source_;
 };
 
 }  // namespace gridmerge

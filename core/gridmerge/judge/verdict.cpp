@@ -20,35 +20,91 @@ double same_side_m(const Figures& f) { return f.source_in_target.same_side_m + f
 double in_free_m(const Figures& f) { return f.source_in_target.in_free_m + f.target_in_source.in_free_m; }
 double far_in_free_m(const Figures& f) { return f.source_in_target.far_in_free_m + f.target_in_source.far_in_free_m; }
 
-/// The logistic function of the figures, for a given lead (0..1).
-double confidence_of(const Figures& f, double lead, const VerdictOptions& o) {
-  if (f.evidence_m <= 0) {
-    return 0;
+/// The direction in which a pose is known least.
+struct WeakDirection {
+  double deviation_m = 0;
+  double heading_deg = 0;  ///< 0 .. 180
+};
+
+std::optional<WeakDirection> weak_direction(const PoseEstimate& estimate) {
+  if (!estimate.covariance) {
+    return std::nullopt;
   }
-  // Walls that stand a little off a wall are drift, or a bent map; those far from any are another place.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(estimate.covariance->topLeftCorner<2, 2>());
+  const Eigen::Vector2d way = solver.eigenvectors().col(1);
+  const double heading = degrees(std::atan2(way(1), way(0)));
+  return WeakDirection{std::sqrt(std::max(0.0, solver.eigenvalues()(1))), heading < 0 ? heading + 180 : heading};
+}
+
+/// The best pose alone, as if no other came near.
+ConfidenceFigures unrivalled_figures(const Hypothesis& one, const Background& background, double deviations) {
+  constexpr double kDecoyDoubt = 0.5;
+  constexpr double kLittleShare = 0.4;
+  constexpr double kWeak = -3;       // ln of 5 cm
+  constexpr double kFinest = 0.005;  // [m]
+  constexpr double kNotKnown = 10;   // [m] what the refinement says of a direction that is not fixed at all
+  const Figures& f = one.figures;
   const double near_m = in_free_m(f) - far_in_free_m(f);
-  const double near_conflict = near_m / (near_m + same_side_m(f));
-  const double sum = o.bias + o.per_log_same_side * std::log(std::max(1.0, same_side_m(f))) +
-                     o.per_near_conflict * near_conflict + o.per_far_conflict * f.far_conflict_share +
-                     o.per_lead * lead + o.per_log_overlap * std::log(std::max(1.0, f.overlap_area_m2)) +
-                     o.per_mutual_information * f.mutual_information_bit + o.per_overlap_share * f.overlap_share;
-  return 1 / (1 + std::exp(-sum));
+  const std::optional<WeakDirection> weak = weak_direction(one.target_from_source);
+  ConfidenceFigures c;
+  c.log_lead = std::log(std::max(1.0, f.evidence_m));
+  c.lead = 1;
+  c.decoy_doubt = std::max(0.0, kDecoyDoubt - (background.decoy ? background.decoy->log_ratio() : 0));
+  c.log_deviations = std::log(std::max(0.1, deviations));
+  c.near_conflict = near_m > 0 ? near_m / (near_m + same_side_m(f)) : 0;
+  c.both_far_conflict = f.both_far_conflict_share;
+  c.small_conflict = f.small_conflict_share;
+  c.elastic_gain = f.conflict_share - f.elastic_conflict_share;
+  c.roughness = f.elastic_roughness_m;
+  c.log_overlap_share = std::log(std::max(0.01, f.overlap_share));
+  c.little_share = std::max(0.0, kLittleShare - f.overlap_share);
+  c.mutual_information = f.mutual_information_bit;
+  c.log_weak = std::log(std::max(kFinest, weak ? weak->deviation_m : kNotKnown));
+  c.weak_direction = std::max(0.0, c.log_weak - kWeak);
+  return c;
+}
+
+/// The same beside the other poses.
+ConfidenceFigures rivalled_figures(ConfidenceFigures c, const std::vector<Hypothesis>& ranked) {
+  constexpr double kSpotless = 0.03;
+  const double best_m = std::max(1e-6, ranked.front().figures.evidence_m);
+  const std::size_t rival = strongest_rival(ranked);
+  const double rival_m = rival < ranked.size() ? std::max(0.0, ranked[rival].figures.evidence_m) : 0;
+  c.log_lead = std::log(std::max(1.0, best_m - rival_m));
+  c.lead = std::max(0.0, 1 - rival_m / best_m);
+  for (std::size_t i = 1; i < ranked.size(); ++i) {
+    if (ranked[i].figures.conflict_share < kSpotless) {
+      c.spotless_rival = std::max(c.spotless_rival, ranked[i].figures.evidence_m / best_m);
+    }
+  }
+  return c;
 }
 
 /// What the covariance says in words, where a direction is not fixed.
 void add_weak_direction(const PoseEstimate& estimate, const VerdictOptions& o, std::vector<std::string>& reasons) {
-  if (!estimate.covariance) {
-    return;
+  const std::optional<WeakDirection> weak = weak_direction(estimate);
+  if (weak && weak->deviation_m > o.weak_direction_m) {
+    reasons.push_back("the walls hardly fix the pose along " + fixed(weak->heading_deg, 0) +
+                      " deg: standard deviation " + fixed(weak->deviation_m, 2) + " m");
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(estimate.covariance->topLeftCorner<2, 2>());
-  const double deviation = std::sqrt(std::max(0.0, solver.eigenvalues()(1)));
-  if (deviation > o.weak_direction_m) {
-    const Eigen::Vector2d way = solver.eigenvectors().col(1);
-    double heading = degrees(std::atan2(way(1), way(0)));
-    heading += heading < 0 ? 180 : 0;
-    reasons.push_back("the walls hardly fix the pose along " + fixed(heading, 0) + " deg: standard deviation " +
-                      fixed(deviation, 2) + " m");
+}
+
+/// Where a pose lies, and how its evidence compares.
+std::string in_words(const Hypothesis& one, const Hypothesis& best) {
+  const Pose2& pose = one.target_from_source.pose;
+  const double best_m = best.figures.evidence_m;
+  return "x " + fixed(pose.x_m, 2) + " m, y " + fixed(pose.y_m, 2) + " m, theta " + fixed(degrees(pose.theta_rad), 1) +
+         " deg, with " + percent(best_m > 0 ? one.figures.evidence_m / best_m : 1) + " of the evidence";
+}
+
+/// "at A; at B; and 2 more"
+std::string in_words(const std::vector<const Hypothesis*>& poses, const Hypothesis& best) {
+  constexpr std::size_t kMost = 4;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMost, poses.size()); ++i) {
+    text += (i == 0 ? "at " : "; at ") + in_words(*poses[i], best);
   }
+  return poses.size() > kMost ? text + "; and " + std::to_string(poses.size() - kMost) + " more" : text;
 }
 
 }  // namespace
@@ -69,47 +125,84 @@ std::string to_string(Outcome outcome) {
   return "declined";
 }
 
+std::vector<Strictness> degrees_of_strictness() { return {{"cautious", 0.97}, {"normal", 0.9}, {"eager", 0.7}}; }
+
+double VerdictOptions::needed_confidence() const {
+  if (min_confidence > 0) {
+    return min_confidence;
+  }
+  const std::vector<Strictness> degrees = degrees_of_strictness();
+  const auto found =
+      std::find_if(degrees.begin(), degrees.end(), [&](const Strictness& one) { return strictness == one.name; });
+  return found == degrees.end() ? 1 : found->min_confidence;  // require_valid has refused any other word
+}
+
+// configs/learned/verdict.yaml; a test holds the two together.
+ConfidenceWeights VerdictOptions::learned_weights() {
+  return {.bias = 14.5359,
+          .per = {.log_lead = 0.4826,
+                  .lead = 2.2942,
+                  .spotless_rival = -2.8411,
+                  .decoy_doubt = -3.631,
+                  .log_deviations = -4.8193,
+                  .near_conflict = -8.1132,
+                  .both_far_conflict = -24.0798,
+                  .small_conflict = -5.0379,
+                  .elastic_gain = 18.1431,
+                  .roughness = -6.9726,
+                  .log_overlap_share = 1.0903,
+                  .little_share = -8.7147,
+                  .mutual_information = 5.2564,
+                  .log_weak = 1.0132,
+                  .weak_direction = -1.1685}};
+}
+
 void VerdictOptions::describe(OptionList& list) {
-  list.add("min_same_side_m", min_same_side_m, 0, 1e6,
+  std::vector<std::string> names;
+  std::string degrees;
+  for (const Strictness& one : degrees_of_strictness()) {
+    names.emplace_back(one.name);
+    degrees += (degrees.empty() ? "" : ", ") + names.back() + " " + fixed(one.min_confidence, 2);
+  }
+  list.add(
+          "strictness", strictness, names,
+          {"", "How sure a merge must be: least confidence " + degrees + ".",
+           "cautious where a wrong merge crashes something; eager where a person looks at every merge. docs/verdict.md "
+           "has the measured rates."})
+      .add("min_confidence", min_confidence, 0, 1,
+           {"", "Least confidence of a merge; 0: that of the strictness.",
+            "A wrong merge is far worse than a missed one: think before lowering."})
+      .add("min_same_side_m", min_same_side_m, 0, 1e6,
            {"m", "Least length of wall, both ways, seen from the same side in both maps.",
             "Lower it for very small places; little then speaks for a merge."})
       .add("min_lead", min_lead, 0, 1,
-           {"", "Least lead in evidence over the best distinct other pose, as a share.",
+           {"", "Least lead in evidence over any other pose with no more conflict (but for 8 %), as a share.",
             "Lower it and look-alike places get merged wrongly."})
       .add("max_conflict_share", max_conflict_share, 0, 1,
            {"", "Greatest share of walls in the other's free space, of those in the overlap.",
             "Raise it where things moved between the two visits."})
       .add("min_deviations", min_deviations, 0, 1e6,
            {"", "How many standard deviations above random poses the evidence must stand at the least.", ""})
-      .add("min_confidence", min_confidence, 0, 1,
-           {"", "Least confidence of a merge.", "A wrong merge is far worse than a missed one: think before lowering."})
       .add("spotless_conflict_share", spotless_conflict_share, 0, 1,
            {"",
-            "Another pose with no more conflict than this, and enough in common to be merged alone, is a doubt however "
-            "far the best one leads.",
+            "Another pose with no more conflict than this, and enough wall in common, is a doubt however far the best "
+            "one "
+            "leads.",
             "A symmetric hall seen from two ends has such a pose; 0 allows it none."})
       .add("spotless_evidence_share", spotless_evidence_share, 0, 1,
-           {"", "Such a pose that is not the strongest other one must have this share of the best one's evidence.",
+           {"", "Such a pose must have this share of the best one's evidence.",
             "Raise it where large maps are left apart for a pose that only brushes them."})
-      .add("bias", bias, -1e3, 1e3, {"", "Confidence: constant term of the logistic function.", ""})
-      .add("per_log_same_side", per_log_same_side, -1e3, 1e3,
-           {"", "Confidence: per natural logarithm of the wall seen from the same side [m].", ""})
-      .add("per_near_conflict", per_near_conflict, -1e3, 1e3,
-           {"", "Confidence: per unit of the share of walls in free space within three tolerances of a wall.", ""})
-      .add("per_far_conflict", per_far_conflict, -1e3, 1e3, {"", "Confidence: per unit of far_conflict_share.", ""})
-      .add("per_lead", per_lead, -1e3, 1e3, {"", "Confidence: per unit of lead.", ""})
-      .add("per_log_overlap", per_log_overlap, -1e3, 1e3,
-           {"", "Confidence: per natural logarithm of the area known in both [m2].", ""})
-      .add("per_mutual_information", per_mutual_information, -1e3, 1e3,
-           {"", "Confidence: per bit of mutual information a cell.", ""})
-      .add("per_overlap_share", per_overlap_share, -1e3, 1e3,
-           {"", "Confidence: per unit of overlap_share (of the smaller map).", ""})
       .add("distinct_m", distinct_m, 0.01, 100,
            {"m", "Poses farther apart than this, at the source's centre, are different answers.",
             "Raise it for maps so bent that one pose cannot be told from the next."})
       .add("distinct_deg", distinct_deg, 0.1, 180, {"deg", "Poses turned apart by more are different answers.", ""})
       .add("weak_direction_m", weak_direction_m, 0, 100,
-           {"m", "A direction less certain than this (standard deviation) is named among the reasons.", ""});
+           {"m", "A direction less certain than this (standard deviation) is named among the reasons.", ""})
+      .add("bias", weights.bias, -1e3, 1e3, {"", "Confidence: constant term of the logistic function.", ""});
+  for (const ConfidenceTerm& term : confidence_terms()) {
+    list.add("per_" + std::string(term.name), weights.per.*term.figure, -1e3, 1e3,
+             {"", "Confidence: per " + std::string(term.meaning) + ".", ""});
+  }
 }
 
 std::size_t strongest_rival(const std::vector<Hypothesis>& ranked) {
@@ -126,22 +219,27 @@ bool is_spotless(const Hypothesis& hypothesis, const VerdictOptions& options) {
   return hypothesis.figures.conflict_share < options.spotless_conflict_share;
 }
 
-Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_level, const VerdictOptions& o,
-              bool surveyed) {
+Verdict judge(const std::vector<Hypothesis>& ranked, const Background& background, const VerdictOptions& o) {
   Verdict v;
+  v.decoy = background.decoy ? background.decoy->log_ratio() : 0;
   if (ranked.empty()) {
     v.reasons.push_back("no pose lays walls on walls without laying more of them into free space");
     return v;
   }
-  const Figures& best = ranked.front().figures;
+  const Hypothesis& first = ranked.front();
+  const Figures& best = first.figures;
   const std::size_t rival_at = strongest_rival(ranked);
   const double other = rival_at < ranked.size() ? std::max(0.0, ranked[rival_at].figures.evidence_m) : 0;
+  const RandomLevel& random = background.random;
   v.lead_m = std::max(0.0, best.evidence_m - other);
   v.lead = best.evidence_m > 0 ? v.lead_m / best.evidence_m : 0;
-  v.deviations = random_level.deviation_m > 0 ? (best.evidence_m - random_level.mean_m) / random_level.deviation_m : 0;
-  v.confidence = confidence_of(best, v.lead, o);
+  v.deviations = random.deviation_m > 0 ? (best.evidence_m - random.mean_m) / random.deviation_m : 0;
+  const ConfidenceFigures alone = unrivalled_figures(first, background, v.deviations);
+  v.figures = rivalled_figures(alone, ranked);
+  v.confidence = best.evidence_m > 0 ? confidence_of(v.figures, o.weights) : 0;
   // How sure one could be if no other pose came near: what is missing then is missing in the maps.
-  const double unrivalled = confidence_of(best, 1, o);
+  const double unrivalled = best.evidence_m > 0 ? confidence_of(alone, o.weights) : 0;
+  const double needed = o.needed_confidence();
 
   const std::string agreeing = fixed(same_side_m(best), 1) + " m of wall agree, " + fixed(in_free_m(best), 1) +
                                " m stand in the other's free space (" + percent(best.conflict_share) + "), over " +
@@ -151,10 +249,13 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_l
                                         percent(best.evidence_m > 0 ? other / best.evidence_m : 1) + " of the evidence"
                                   : "no other pose was put forward";
   const std::string standing =
-      "the evidence stands " + fixed(v.deviations, 1) + " standard deviations above random poses";
+      "the evidence stands " + fixed(v.deviations, 1) + " standard deviations above random poses" +
+      (background.decoy ? ", and the maps fit " + fixed(std::exp(v.decoy), 2) + " times as well as in a mirror" : "");
   // What speaks against overlap at all, and what speaks only against this pose.
   std::vector<std::string> nothing;
   std::vector<std::string> doubts;
+  constexpr double kAsClean = 0.08;
+  constexpr double kPlausible = 0.5;  // of a pose alone: below, nothing is worth a doubt
   bool rivalled = false;
   if (best.evidence_m <= 0) {
     nothing.push_back("more walls stand in free space than on walls: " + fixed(in_free_m(best), 1) + " m against " +
@@ -172,34 +273,49 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_l
                       " of the walls stand in the other's free space, at most " + percent(o.max_conflict_share) +
                       " wanted");
   }
-  if (v.confidence < o.min_confidence && unrivalled < o.min_confidence) {
+  v.vetoed = !nothing.empty();
+  if (unrivalled < std::min(kPlausible, needed)) {
     nothing.push_back("too little speaks for an overlap: confidence " + fixed(v.confidence, 2) + ", and " +
-                      fixed(unrivalled, 2) + " if no other pose came near; " + fixed(o.min_confidence, 2) + " wanted");
+                      fixed(unrivalled, 2) + " if no other pose came near; " + fixed(needed, 2) + " wanted");
   }
-  if (v.lead < o.min_lead) {
+  // A rival with about as much evidence is a doubt, unless it has far more conflict: it then lies on more.
+  std::vector<const Hypothesis*> as_good;
+  for (std::size_t i = 1; i < ranked.size(); ++i) {
+    const Figures& f = ranked[i].figures;
+    if (f.evidence_m > (1 - o.min_lead) * best.evidence_m && f.conflict_share < best.conflict_share + kAsClean) {
+      as_good.push_back(&ranked[i]);
+    }
+  }
+  if (!as_good.empty()) {
     rivalled = true;
-    doubts.push_back("another pose fits about as well: " + leading);
-  } else if (v.confidence < o.min_confidence && nothing.empty()) {
-    doubts.push_back("not sure enough while another pose fits as well as it does: " + leading + "; confidence " +
-                     fixed(v.confidence, 2) + " of " + fixed(o.min_confidence, 2) + " wanted");
+    doubts.push_back("another pose fits about as well: " + in_words(as_good, first));
+  } else if (v.confidence < needed && nothing.empty()) {
+    const std::string wanted =
+        "confidence " + fixed(v.confidence, 2) + " of " + fixed(needed, 2) + " wanted, " + fixed(unrivalled, 2) +
+        " if no other pose came near";
+    doubts.push_back(rival_at < ranked.size() ? "not sure enough while another pose fits as well as it does: " +
+                                                    in_words({&ranked[rival_at]}, first) + "; " + wanted
+                                              : "not sure enough: " + wanted);
   }
   // Laid over each other as far as they go, two halves of a symmetric hall agree in more than where they really meet. A
-  // lead says nothing then: a pose without conflict cannot be ruled out. It need not be the strongest of the others,
-  // but of the weaker ones some have no conflict only because they hardly overlap.
-  const auto spotless = std::find_if(ranked.begin() + 1, ranked.end(), [&](const Hypothesis& one) {
-    const bool strong =
-        &one == &ranked[rival_at] || one.figures.evidence_m >= o.spotless_evidence_share * best.evidence_m;
-    return strong && is_spotless(one, o) && same_side_m(one.figures) >= o.min_same_side_m &&
-           confidence_of(one.figures, 1, o) >= o.min_confidence;
-  });
-  if (spotless != ranked.end()) {
-    rivalled = true;
-    doubts.push_back("another pose fits without conflict: " + fixed(same_side_m(spotless->figures), 1) +
-                     " m of wall agree there as well");
+  // lead says nothing then: a pose without conflict cannot be ruled out. Of the weak ones some have no conflict only
+  // because they hardly overlap.
+  std::vector<const Hypothesis*> spotless;
+  for (std::size_t i = 1; i < ranked.size(); ++i) {
+    const Hypothesis& one = ranked[i];
+    if (one.figures.evidence_m >= o.spotless_evidence_share * best.evidence_m && is_spotless(one, o) &&
+        same_side_m(one.figures) >= o.min_same_side_m) {
+      spotless.push_back(&one);
+    }
   }
-  if (!surveyed) {
+  if (!spotless.empty()) {
+    rivalled = true;
+    doubts.push_back("another pose fits without conflict: " + in_words(spotless, first));
+  }
+  if (!background.surveyed) {
     doubts.push_back("the search was cut short: other poses that fit as well may have been overlooked");
   }
+  v.vetoed = v.vetoed || rivalled || !background.surveyed;
   if (!nothing.empty()) {
     v.outcome = Outcome::kNoOverlap;
   } else if (!doubts.empty()) {
@@ -212,11 +328,10 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_l
   v.reasons.push_back(agreeing);
   v.reasons.push_back(leading);
   v.reasons.push_back(standing);
-  add_weak_direction(ranked.front().target_from_source, o, v.reasons);
+  add_weak_direction(first.target_from_source, o, v.reasons);
   if (v.outcome != Outcome::kMerged) {
     // What is not merged must not look sure of itself; of two poses that fit alike, one is right at the best.
-    const double most = !nothing.empty() || rivalled ? 0.5 : 1;
-    v.confidence = std::min(v.confidence, most * o.min_confidence);
+    v.confidence = std::min(v.confidence, rivalled ? 0.5 : needed);
   }
   return v;
 }

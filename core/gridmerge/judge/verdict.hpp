@@ -6,6 +6,8 @@
 
 #include "gridmerge/base/options.hpp"
 #include "gridmerge/grid/covariance.hpp"
+#include "gridmerge/judge/confidence.hpp"
+#include "gridmerge/judge/decoy_level.hpp"
 #include "gridmerge/judge/evaluator.hpp"
 
 namespace gridmerge {
@@ -30,39 +32,56 @@ struct Hypothesis {
 };
 
 struct VerdictOptions {
-  // Gates: none may be broken in a merge.
+  // How sure a merge must be.
+  std::string strictness = "normal";
+  double min_confidence = 0;
+  // Gates: none may be broken in a merge, however sure it looks.
   double min_same_side_m = 10;
-  double min_lead = 0.08;
+  double min_lead = 0.3;
   double max_conflict_share = 0.33;
   double min_deviations = 1.5;
-  double min_confidence = 0.9;
   double spotless_conflict_share = 0.01;
-  double spotless_evidence_share = 0.25;
-  // The confidence: a logistic function of seven figures (docs/verdict.md says how the weights were found).
-  double bias = -11.7;
-  double per_log_same_side = 0.58;
-  double per_near_conflict = -18.4;
-  double per_far_conflict = -38;
-  double per_lead = 4.8;
-  double per_log_overlap = 2.24;
-  double per_mutual_information = 14;
-  double per_overlap_share = 4.3;
+  double spotless_evidence_share = 0.5;
   // When poses count as different answers.
   double distinct_m = 1.0;
   double distinct_deg = 6;
   // What is said of the covariance.
   double weak_direction_m = 0.5;
+  // The confidence: what its figures weigh. Fitted by benchmarks/verdict; configs/learned/verdict.yaml says how.
+  ConfidenceWeights weights = learned_weights();
 
   void describe(OptionList& list);
+  /// min_confidence where that is set, else the strictness's own.
+  [[nodiscard]] double needed_confidence() const;
+  [[nodiscard]] static ConfidenceWeights learned_weights();
 };
+
+/// A degree of strictness, by name.
+struct Strictness {
+  const char* name;
+  double min_confidence;
+};
+/// cautious, normal, eager. How often each merges wrongly, and misses: docs/verdict.md.
+[[nodiscard]] std::vector<Strictness> degrees_of_strictness();
 
 struct Verdict {
   Outcome outcome = Outcome::kNoOverlap;
-  double confidence = 0;             ///< 0..1 that the first hypothesis is right
+  double confidence = 0;             ///< 0..1: how likely the first hypothesis is right (0.5 m, 3 degrees)
   double lead = 0;                   ///< 1 - (most evidence of another distinct pose) / (evidence of the first), 0..1
   double lead_m = 0;                 ///< the same as a difference [m of wall]
   double deviations = 0;             ///< how many standard deviations the evidence stands above random poses'
+  double decoy = 0;                  ///< DecoyLevel::log_ratio
+  bool vetoed = false;               ///< a gate is broken: not merged, however high the confidence
+  ConfidenceFigures figures;         ///< what the confidence was computed from
   std::vector<std::string> reasons;  ///< in words, with figures; the decisive one first; never empty
+};
+
+/// What the best pose is held against beside its rivals.
+struct Background {
+  RandomLevel random;
+  std::optional<DecoyLevel> decoy;  ///< none: nobody looked
+  /// Nobody has overlooked a rival; false: never merged.
+  bool surveyed = true;
 };
 
 /// The index of the hypothesis other than the first that has the most evidence; ranked.size() where there is none.
@@ -73,8 +92,7 @@ struct Verdict {
 
 /// @param ranked  the hypothesis to judge, then the others, most support first; no two closer than the verdict's
 ///                distinct_m and distinct_deg
-/// @param surveyed  nobody has overlooked a rival; false: never merged
-[[nodiscard]] Verdict judge(const std::vector<Hypothesis>& ranked, const RandomLevel& random_level,
-                            const VerdictOptions& options, bool surveyed = true);
+[[nodiscard]] Verdict judge(const std::vector<Hypothesis>& ranked, const Background& background,
+                            const VerdictOptions& options);
 
 }  // namespace gridmerge

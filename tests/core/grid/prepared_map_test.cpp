@@ -379,5 +379,46 @@ TEST(PreparedMap, CommonResolutionIsTheCoarsest) {
   EXPECT_EQ(common_resolution_m(coarse, fine, {.finest_resolution_m = 0.2}), 0.2);
 }
 
+/// The grid seen in a mirror along its x axis.
+OccupancyGrid flipped(const OccupancyGrid& grid) {
+  OccupancyGrid other = grid;
+  for (int row = 0; row < grid.geometry.height; ++row) {
+    for (int column = 0; column < grid.geometry.width; ++column) {
+      other.at({column, grid.geometry.height - 1 - row}) = grid.at({column, row});
+    }
+  }
+  return other;
+}
+
+TEST(PreparedMap, MirroredIsThePreparedMirrorImage) {
+  const OccupancyGrid grid = worlds::make_scene(known_pair("flat")).target;
+  const PreparedMap map(grid, 0.05);
+  const PreparedMap mirrored = map.mirrored();
+  const PreparedMap expected(flipped(grid), 0.05);
+  EXPECT_EQ(mirrored.level(0).state, expected.level(0).state);
+  EXPECT_EQ(mirrored.level(0).wall_distance_m, expected.level(0).wall_distance_m);
+  EXPECT_NEAR(mirrored.level(0).lower_left.y_m, expected.level(0).lower_left.y_m, 1e-9);
+  EXPECT_EQ(mirrored.occupancy(), expected.occupancy());
+  EXPECT_NEAR(mirrored.radius_m(), expected.radius_m(), 1e-6);
+  ASSERT_EQ(mirrored.walls().size(), expected.walls().size());
+  for (std::size_t i = 0; i < expected.walls().size(); ++i) {
+    ASSERT_NEAR(mirrored.walls()[i].at.x_m, expected.walls()[i].at.x_m, 1e-4) << i;
+    ASSERT_NEAR(mirrored.walls()[i].at.y_m, expected.walls()[i].at.y_m, 1e-4) << i;
+    ASSERT_NEAR(mirrored.walls()[i].free_normal.y_m, expected.walls()[i].free_normal.y_m, 1e-3) << i;
+  }
+}
+
+TEST(PreparedMap, MirroredTwiceIsTheMapItself) {
+  const PreparedMap map(worlds::make_scene(known_pair("flat")).source, 0.05);
+  const PreparedMap twice = map.mirrored().mirrored();
+  for (int level = 0; level < PreparedMap::kLevels; ++level) {
+    EXPECT_EQ(twice.level(level).state, map.level(level).state) << level;
+    EXPECT_NEAR(twice.level(level).lower_left.y_m, map.level(level).lower_left.y_m, 1e-9) << level;
+  }
+  EXPECT_EQ(twice.walls().size(), map.walls().size());
+  const PreparedMap nothing(unknown_grid({.width = 3, .height = 2, .resolution_m = 1, .map_from_grid = {}}), 1);
+  EXPECT_EQ(nothing.mirrored().known_cells(), 0U);
+}
+
 }  // namespace
 }  // namespace gridmerge

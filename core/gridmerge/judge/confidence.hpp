@@ -1,0 +1,51 @@
+#pragma once
+/// What the confidence is a logistic function of: a few figures of the best pose, of its rivals, and of chance.
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gridmerge {
+
+/// Each is 0 where nothing is known.
+struct ConfidenceFigures {
+  // Beside the other poses.
+  double log_lead = 0;        ///< ln of the lead in evidence over the strongest other pose [m], at least 1 m
+  double lead = 0;            ///< the same as a share of the evidence
+  double spotless_rival = 0;  ///< evidence of the strongest other pose with less than 3 % conflict, as a share
+  double decoy_doubt = 0;     ///< what DecoyLevel::log_ratio lacks of 0.5
+  double log_deviations = 0;  ///< ln of how many standard deviations above random poses, at least 0.1
+  // Walls in free space.
+  double near_conflict = 0;      ///< share of walls in free space within three tolerances of a wall
+  double both_far_conflict = 0;  ///< Figures::both_far_conflict_share
+  double small_conflict = 0;     ///< Figures::small_conflict_share
+  double elastic_gain = 0;       ///< conflict_share that goes away with every patch shifted by itself
+  double roughness = 0;          ///< Figures::elastic_roughness_m
+  // How much there is in common.
+  double log_overlap_share = 0;   ///< ln of the overlap's share of the smaller map, at least 1 %
+  double little_share = 0;        ///< what that share lacks of 0.4
+  double mutual_information = 0;  ///< [bit]
+  // How well the walls fix the pose.
+  double log_weak = 0;        ///< ln of the standard deviation in the direction that is fixed least [m]
+  double weak_direction = 0;  ///< how far log_weak exceeds -3 (5 cm)
+};
+
+/// One weight for each figure, and a constant; the defaults are those of configs/learned/verdict.yaml.
+struct ConfidenceWeights {
+  double bias = 0;
+  ConfidenceFigures per;
+};
+
+/// A figure by name.
+struct ConfidenceTerm {
+  const char* name;
+  double ConfidenceFigures::*figure;
+  const char* meaning;  ///< one phrase, with the unit
+};
+/// All of them, in the order of ConfidenceFigures.
+[[nodiscard]] std::span<const ConfidenceTerm> confidence_terms();
+
+/// The logistic function of the weighted figures, 0..1.
+[[nodiscard]] double confidence_of(const ConfidenceFigures& figures, const ConfidenceWeights& weights);
+
+}  // namespace gridmerge

@@ -1,0 +1,61 @@
+#pragma once
+/// A map as the Evaluator reads it: its walls with the side they were seen from, and for every cell which walls are
+/// near.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "gridmerge/grid/prepared_map.hpp"
+#include "gridmerge/grid/wall_sides.hpp"
+
+namespace gridmerge {
+
+struct SidedWall {
+  Point2f at;  ///< local frame
+  WallSide side;
+  bool small = false;  ///< of a piece less than two metres wide, as furniture is
+};
+
+/// Borrows the map.
+struct SidedMap {
+  const PreparedMap* map = nullptr;
+  std::vector<SidedWall> walls;  ///< of more than the limit, every n-th
+  double metres_a_wall = 0;
+  std::vector<std::uint8_t> seen_from;       ///< sides_within the tolerance, by cell of level 0
+  std::vector<std::uint8_t> seen_from_near;  ///< sides_within half of it
+};
+
+[[nodiscard]] SidedMap sided_map(const PreparedMap& map, double tolerance_m, int max_points);
+
+/// 1 where the wall was seen from a side that `seen_from` holds, after its map was turned; 0 where from another; a half
+/// where its own is not known.
+[[nodiscard]] inline double same_side(const SidedWall& wall, std::uint8_t seen_from, int turn_64ths) {
+  return wall.side.known ? (seen_from >> wall.side.octant_after_64ths(turn_64ths)) & 1 : 0.5;
+}
+
+/// A turn in 1/64 of a full one, as WallSide has it.
+[[nodiscard]] inline int turn_64ths(const Pose2& pose) {
+  return static_cast<int>(std::lround(pose.theta_rad / (2 * kPi) * 64));
+}
+
+/// An affine map from points of one local frame to cells of a level of the other.
+struct ToCells {
+  float c, s, x0, y0;
+
+  ToCells(const MapLevel& level, const Pose2& level_from_points) {
+    const double scale = 1 / level.resolution_m;
+    c = static_cast<float>(std::cos(level_from_points.theta_rad) * scale);
+    s = static_cast<float>(std::sin(level_from_points.theta_rad) * scale);
+    x0 = static_cast<float>((level_from_points.x_m - level.lower_left.x_m) * scale);
+    y0 = static_cast<float>((level_from_points.y_m - level.lower_left.y_m) * scale);
+  }
+  [[nodiscard]] int column(Point2f p) const { return cell(c * p.x_m - s * p.y_m + x0); }
+  [[nodiscard]] int row(Point2f p) const { return cell(s * p.x_m + c * p.y_m + y0); }
+  /// The cell that holds a coordinate. Far outside of any map it stops counting, so that sums cannot overflow.
+  [[nodiscard]] static int cell(float coordinate) {
+    return static_cast<int>(std::floor(std::clamp(coordinate, -1e6F, 1e6F)));
+  }
+};
+
+}  // namespace gridmerge

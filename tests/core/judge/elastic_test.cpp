@@ -1,0 +1,66 @@
+#include "gridmerge/judge/elastic.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/align/drawn_place.hpp"
+
+namespace gridmerge {
+namespace {
+
+constexpr double kTolerance = 0.2;
+
+/// The grid with its right half pushed up by so many cells.
+OccupancyGrid bent(const OccupancyGrid& grid, int cells) {
+  OccupancyGrid result = grid;
+  for (int row = 0; row < grid.geometry.height; ++row) {
+    for (int column = grid.geometry.width / 2; column < grid.geometry.width; ++column) {
+      const CellIndex from = {column, row - cells};
+      result.at({column, row}) = grid.geometry.contains(from) ? grid.at(from) : kUnknown;
+    }
+  }
+  return result;
+}
+
+double conflict(const ElasticMeeting& met) { return met.in_free_m / (met.in_free_m + met.same_side_m); }
+
+ElasticMeeting meet(const OccupancyGrid& fixed, const OccupancyGrid& moving, const Pose2& local) {
+  const PreparedMap a(fixed, 0.05);
+  const PreparedMap b(moving, 0.05);
+  const Pose2 aligned = to_local(local, a, b);
+  return meet_elastically(sided_map(a, kTolerance, 100000), sided_map(b, kTolerance, 100000), aligned, kTolerance);
+}
+
+TEST(Elastic, AMapFitsItselfWithoutAShift) {
+  const OccupancyGrid grid = drawn(Place::kFlat, {});
+  const ElasticMeeting met = meet(grid, grid, {});
+  EXPECT_GT(met.same_side_m, 50);
+  EXPECT_LT(conflict(met), 0.01);
+  EXPECT_EQ(met.shift_m, 0);
+  EXPECT_GT(met.beside_m, 0);
+}
+
+TEST(Elastic, ABentMapFitsWithShiftsThatDiffer) {
+  const OccupancyGrid grid = drawn(Place::kFlat, {});
+  const ElasticMeeting met = meet(grid, bent(grid, 8), {});  // 0.4 m, twice the tolerance
+  EXPECT_LT(conflict(met), 0.08);
+  EXPECT_GT(met.shift_m / met.beside_m, 0.05);
+}
+
+TEST(Elastic, AWrongPoseFitsNoBetterForIt) {
+  const OccupancyGrid grid = drawn(Place::kFlat, {});
+  const ElasticMeeting met = meet(grid, grid, {1.7, 1.3, radians(40)});
+  EXPECT_GT(conflict(met), 0.25);
+}
+
+TEST(Elastic, NothingIsSaidWhereTheMapsDoNotMeet) {
+  const OccupancyGrid grid = drawn(Place::kFlat, {});
+  const ElasticMeeting met = meet(grid, grid, {1000, 0, 0});
+  EXPECT_EQ(met.same_side_m, 0);
+  EXPECT_EQ(met.in_free_m, 0);
+  EXPECT_EQ(met.beside_m, 0);
+}
+
+}  // namespace
+}  // namespace gridmerge
