@@ -21,12 +21,16 @@ struct AlignArguments {
   ConfigurationChoice choice;
   SearchArguments search;
   bool json = false;
+  bool explain = false;
 };
 
 int run_align(const AlignArguments& arguments, const MethodRegistry& methods, std::ostream& out) {
   const std::optional<PosePrior> prior = parse_prior(arguments.search.prior);
   const std::optional<double> time_limit = parse_time_limit(arguments.search.time_limit);
   Configuration configuration(methods, arguments.choice);
+  if (arguments.explain && !configuration.chooses()) {
+    throw UsageError("--explain tells how a method was chosen: it needs --method auto");
+  }
   TraceFile trace(arguments.search.trace);
 
   Progress progress(terminal());
@@ -38,7 +42,7 @@ int run_align(const AlignArguments& arguments, const MethodRegistry& methods, st
   const StopToken stop = stop_after(time_limit);
   const Interrupt interrupt(stop);
   Watch watch({&progress, &trace});
-  const Alignment alignment = align({maps[0], maps[1], prior}, configuration.merger(), configuration.pipeline(),
+  const Alignment alignment = align({maps[0], maps[1], prior}, configuration.methods(), configuration.pipeline(),
                                     {configuration.seed(), configuration.threads(), stop, &watch});
   progress.finish();
   trace.write();
@@ -51,7 +55,7 @@ int run_align(const AlignArguments& arguments, const MethodRegistry& methods, st
     answer["seconds"] = seconds_json(load.count(), alignment.seconds);
     out << json_text(answer);
   } else {
-    out << alignment_text(alignment, load.count());
+    out << alignment_text(alignment, load.count()) << (arguments.explain ? choice_text(alignment) : "");
   }
   return alignment.outcome == Outcome::kMerged && !interrupt.happened() ? kDone : kNotMerged;
 }
@@ -67,6 +71,8 @@ Command align_command(const CommandContext& context) {
   add_configuration_arguments(*command, arguments->choice);
   add_search_arguments(*command, arguments->search);
   command->add_flag("--json", arguments->json, "One JSON object on standard output instead of words");
+  command->add_flag("--explain", arguments->explain,
+                    "With --method auto: what the maps look like, what every method bids, and why which one ran");
   command->footer("\nExit status: 0 merged, 3 not merged (or interrupted), 1 a file is wrong, 2 wrong usage.");
   const MethodRegistry& methods = context.methods;
   return {command, [arguments, &methods](std::ostream& out) { return run_align(*arguments, methods, out); }};

@@ -57,6 +57,10 @@ void add_configuration_arguments(CLI::App& command, ConfigurationChoice& choice)
   command.add_option("--set", choice.set, "Sets one option, e.g. verdict.min_lead=0.2; may be repeated. See 'config'")
       ->type_name("SECTION.KEY=VALUE")
       ->allow_extra_args(false);
+  command
+      .add_option("--strictness", choice.strictness,
+                  "How sure a merge must be: cautious, normal or eager; short for --set verdict.strictness=NAME")
+      ->type_name("NAME");
   command.add_option("--seed", choice.seed, "All chance comes from it: same seed, same answer (1)")->type_name("N");
   command.add_option("--threads", choice.threads, "Threads at work; the answer stays the same (0: all there are)")
       ->type_name("N");
@@ -67,8 +71,15 @@ void add_profile_argument(CLI::App& command, ConfigurationChoice& choice) {
 }
 
 void add_method_arguments(CLI::App& command, ConfigurationChoice& choice) {
-  command.add_option("--method", choice.method, "The method that proposes poses; 'gridmerge methods' lists them")
+  command
+      .add_option(
+          "--method", choice.method,
+          "The method that proposes poses; 'gridmerge methods' lists them; auto: chosen by what the maps look like")
       ->type_name("NAME");
+  command
+      .add_option("--bids", choice.bids,
+                  "With --method auto: what to expect of each method (YAML), instead of what is built in")
+      ->type_name("FILE");
   add_profile_argument(command, choice);
 }
 

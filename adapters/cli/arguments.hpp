@@ -22,7 +22,7 @@ struct SearchArguments {
 
 /// --plugin
 void add_plugin_argument(CLI::App& command, std::vector<std::string>& plugins);
-/// --config, --plugin, --set, --seed, --threads
+/// --config, --plugin, --set, --strictness, --seed, --threads
 void add_configuration_arguments(CLI::App& command, ConfigurationChoice& choice);
 /// --profile
 void add_profile_argument(CLI::App& command, ConfigurationChoice& choice);

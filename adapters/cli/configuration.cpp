@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "cli/usage_error.hpp"
+#include "config/bid_file.hpp"
 #include "config/config_file.hpp"
 #include "gridmerge/base/error.hpp"
 #include "gridmerge/base/parallel.hpp"
@@ -15,22 +16,26 @@
 namespace gridmerge::cli {
 namespace {
 
-template <typename Named>
-std::string names_of(const std::vector<Named>& all) {
+struct Named {
+  std::string name;
+};
+
+template <typename Some>
+std::string names_of(const std::vector<Some>& all) {
   std::string names;
-  for (const Named& one : all) {
+  for (const Some& one : all) {
     names += (names.empty() ? "" : ", ") + one.name;
   }
   return names;
 }
 
 /// The one that the command line names, or else the file, or else the first.
-template <typename Named>
-const Named& chosen(const std::vector<Named>& all, const std::string& key, const std::string& from_command_line,
-                    ConfigFile& file) {
+template <typename Some>
+const Some& chosen(const std::vector<Some>& all, const std::string& key, const std::string& from_command_line,
+                   ConfigFile& file) {
   const std::optional<std::string> from_file = file.value(key);
   const std::string name = from_command_line.empty() ? from_file.value_or(all.front().name) : from_command_line;
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Some& one) { return one.name == name; });
   if (found != all.end()) {
     return *found;
   }
@@ -112,16 +117,16 @@ Configuration::Configuration(const MethodRegistry& built_in, const Configuration
   const std::vector<std::filesystem::path> further = further_plugins(choice.plugins, plugins_);
   const MethodRegistry registry = with_plugins(with_plugins_of_file(built_in, plugins_, choice.file), further);
   plugins_.insert(plugins_.end(), further.begin(), further.end());
-  const MethodEntry& method = chosen(registry.entries(), "method", choice.method, file);
-  const MethodProfile& profile = chosen(method.profiles, "profile", choice.profile, file);
-  method_ = method.name;
-  profile_ = profile.name;
-  method_config_ = profile.config();
+  choose_methods(registry, choice, file);
 
   OptionList run = run_options();
   std::vector<Section> parts = sections();
-  if (std::any_of(parts.begin() + 1, parts.end(), [&](const Section& part) { return part.name == method_; })) {
-    throw InputError("method " + method_, "a method cannot bear the name of a section of the configuration");
+  std::set<std::string> names = {kAuto, "selector"};
+  for (const Section& part : parts) {
+    const bool is_new = names.insert(part.name).second;
+    if (!is_new && part.name != "selector") {
+      throw InputError("method " + part.name, "a method cannot bear the name of a section of the configuration");
+    }
   }
   file.apply(ConfigFile::kTopLevel, run);
   for (Section& part : parts) {
@@ -141,6 +146,9 @@ Configuration::Configuration(const MethodRegistry& built_in, const Configuration
   if (!choice.threads.empty()) {
     note("--threads", run.set("threads", choice.threads));
   }
+  if (!choice.strictness.empty()) {
+    note("--strictness " + choice.strictness, apply_setting("verdict.strictness=" + choice.strictness, parts));
+  }
   std::set<std::string> given;
   for (const std::string& setting : choice.set) {
     const std::string key = setting.substr(0, setting.find('='));
@@ -150,7 +158,7 @@ Configuration::Configuration(const MethodRegistry& built_in, const Configuration
     throw UsageError(problems);
   }
   try {  // options that do not go together are told here, not in the middle of the work
-    merger_ = method_config_->make();
+    make_methods();
     (void)PreparedMap(unknown_grid({.width = 1, .height = 1, .resolution_m = 1, .map_from_grid = {}}), 1,
                       pipeline_.prepare);
   } catch (const std::invalid_argument& error) {
@@ -158,11 +166,72 @@ Configuration::Configuration(const MethodRegistry& built_in, const Configuration
   }
 }
 
+void Configuration::choose_methods(const MethodRegistry& registry, const ConfigurationChoice& choice,
+                                   ConfigFile& file) {
+  std::vector<Named> names;
+  for (const MethodEntry& entry : registry.entries()) {
+    names.push_back({entry.name});
+  }
+  names.push_back({kAuto});
+  method_ = chosen(names, "method", choice.method, file).name;
+  const std::optional<std::string> bids = file.value("bids");
+  if (!chooses()) {
+    const MethodEntry& method = registry.method(method_);
+    const MethodProfile& profile = chosen(method.profiles, "profile", choice.profile, file);
+    profile_ = profile.name;
+    method_configs_.emplace_back(method_, profile.config());
+    if (!choice.bids.empty()) {
+      throw UsageError("--bids " + choice.bids + ": only --method auto reads it");
+    }
+    if (bids) {
+      file.reject("bids", "is read with 'method: auto' only");
+    }
+    return;
+  }
+  profile_ = chosen(std::vector<Named>{{"default"}}, "profile", choice.profile, file).name;
+  for (const MethodEntry& entry : registry.entries()) {
+    method_configs_.emplace_back(entry.name, entry.profiles.front().config());
+  }
+  if (!choice.bids.empty()) {
+    bids_ = choice.bids;
+  } else if (bids) {
+    bids_ = std::filesystem::path(choice.file).parent_path() / *bids;
+  }
+}
+
+void Configuration::make_methods() {
+  for (const auto& [name, config] : method_configs_) {
+    mergers_.push_back(config->make());
+  }
+  if (!chooses()) {
+    methods_ = std::make_unique<OneMethod>(*mergers_.front(), method_);
+    return;
+  }
+  std::vector<NamedMethod> named;
+  for (std::size_t i = 0; i < mergers_.size(); ++i) {
+    named.push_back({method_configs_[i].first, mergers_[i].get()});
+  }
+  methods_ = std::make_unique<Selector>(std::move(named), bids_.empty() ? shipped_bids() : read_bids(bids_), selector_);
+}
+
 int Configuration::threads() const { return run_.threads == 0 ? available_threads() : run_.threads; }
 
 std::vector<Configuration::Section> Configuration::sections() {
-  return {{method_, "The method: proposes poses.", method_config_->options()},
-          {"pipeline", "The way from two maps to a verdict.", option_list(pipeline_)},
+  std::vector<Section> all;
+  if (chooses()) {
+    all.push_back({"selector", "Chooses the method from what the maps look like.", option_list(selector_)});
+  }
+  for (const auto& [name, config] : method_configs_) {
+    all.push_back({name, chooses() ? "A method to choose from." : "The method: proposes poses.", config->options()});
+  }
+  for (Section& part : pipeline_sections()) {
+    all.push_back(std::move(part));
+  }
+  return all;
+}
+
+std::vector<Configuration::Section> Configuration::pipeline_sections() {
+  return {{"pipeline", "The way from two maps to a verdict.", option_list(pipeline_)},
           {"prepare", "Makes the maps ready.", option_list(pipeline_.prepare)},
           {"refine", "Brings the best poses to a fraction of a cell.", option_list(pipeline_.refinement)},
           {"evaluator", "Measures how well a pose fits.", option_list(pipeline_.evaluator)},

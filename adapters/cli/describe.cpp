@@ -113,6 +113,7 @@ std::string configuration_yaml(Configuration& configuration, const std::function
     text += "method: " + yaml_word(configuration.method()) + "\n";
     text += "profile: " + yaml_word(configuration.profile()) + "\n";
     text += plugins_yaml(configuration.plugins());
+    text += configuration.bids().empty() ? "" : "bids: " + yaml_word(configuration.bids().string()) + "\n";
   }
   if (wanted("")) {
     text += options_yaml(configuration.run_options(), "");

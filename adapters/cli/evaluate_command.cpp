@@ -69,7 +69,7 @@ int run_evaluate(const EvaluateArguments& arguments, const MethodRegistry& metho
                                  {.seed = configuration.seed(), .num_threads = configuration.threads(), .stop = {}});
   if (arguments.json) {
     Json json = alignment_json(answer);
-    for (const char* key : {"covariance", "iterations", "stopped"}) {
+    for (const char* key : {"covariance", "iterations", "stopped", "attempts", "choice"}) {
       json.erase(key);
     }
     json["target"] = arguments.target;

@@ -69,7 +69,7 @@ int run_inspect(const InspectArguments& arguments, const MethodRegistry& methods
   ViewRecorder recorder;
   Watch watch({&progress, &trace, &recorder});
   const AlignInput input{maps[0], maps[1], prior};
-  const Alignment alignment = align(input, configuration.merger(), configuration.pipeline(),
+  const Alignment alignment = align(input, configuration.methods(), configuration.pipeline(),
                                     {configuration.seed(), configuration.threads(), stop, &watch});
   progress.finish();
   trace.write();

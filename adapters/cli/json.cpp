@@ -25,9 +25,22 @@ Json figures_json(const Figures& figures, const Verdict& verdict, const RandomLe
   json["lead"] = verdict.lead;
   json["lead_m"] = verdict.lead_m;
   json["deviations"] = verdict.deviations;
+  json["decoy"] = verdict.decoy;
   json["random_mean_m"] = random_level.mean_m;
   json["random_deviation_m"] = random_level.deviation_m;
   json["random_poses"] = random_level.poses;
+  return json;
+}
+
+Json attempts_json(const std::vector<Attempt>& attempts) {
+  Json json = Json::array();
+  for (const Attempt& one : attempts) {
+    json.push_back({{"method", one.method},
+                    {"why", one.why},
+                    {"status", status_of(one.outcome)},
+                    {"confidence", one.confidence},
+                    {"seconds", one.seconds}});
+  }
   return json;
 }
 
@@ -56,6 +69,8 @@ Json alignment_json(const Alignment& alignment) {
           {"hypotheses", hypotheses},
           {"figures",
            best == nullptr ? Json::object() : figures_json(best->figures, alignment.verdict, alignment.random_level)},
+          {"attempts", attempts_json(alignment.attempts)},
+          {"choice", alignment.story},
           {"iterations", alignment.iterations},
           {"stopped", alignment.stopped}};
 }
@@ -71,9 +86,13 @@ Json prior_json(const std::optional<PosePrior>& prior) {
 }
 
 Json seconds_json(double load, const StepSeconds& seconds) {
-  return {
-      {"load", load},           {"prepare", seconds.prepare}, {"propose", seconds.propose}, {"refine", seconds.refine},
-      {"judge", seconds.judge}, {"align", seconds.align}};
+  return {{"load", load},
+          {"prepare", seconds.prepare},
+          {"choose", seconds.choose},
+          {"propose", seconds.propose},
+          {"refine", seconds.refine},
+          {"judge", seconds.judge},
+          {"align", seconds.align}};
 }
 
 Json configuration_json(Configuration& configuration) {
@@ -85,8 +104,13 @@ Json configuration_json(Configuration& configuration) {
   for (const std::filesystem::path& plugin : configuration.plugins()) {
     plugins.push_back(plugin.string());
   }
-  return {{"method", configuration.method()}, {"profile", configuration.profile()}, {"plugins", plugins},
-          {"seed", configuration.seed()},     {"threads", configuration.threads()}, {"options", options}};
+  return {{"method", configuration.method()},
+          {"profile", configuration.profile()},
+          {"plugins", plugins},
+          {"bids", configuration.bids().empty() ? Json() : Json(configuration.bids().string())},
+          {"seed", configuration.seed()},
+          {"threads", configuration.threads()},
+          {"options", options}};
 }
 
 Json options_json(const OptionList& options) {

@@ -17,11 +17,13 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json covariance_json(const std::optional<PoseCovariance>& covariance);
 /// All figures, with what the verdict and the random level add to them.
 [[nodiscard]] Json figures_json(const Figures& figures, const Verdict& verdict, const RandomLevel& random_level);
-/// status, transform, covariance, confidence, reasons, hypotheses, figures.
+/// method, why, status, confidence, seconds of each.
+[[nodiscard]] Json attempts_json(const std::vector<Attempt>& attempts);
+/// status, transform, covariance, confidence, reasons, hypotheses, figures, attempts, choice.
 [[nodiscard]] Json alignment_json(const Alignment& alignment);
 /// {x, y, theta, radius_m, angle_deg}; null where there is none
 [[nodiscard]] Json prior_json(const std::optional<PosePrior>& prior);
-/// load, prepare, propose, refine, judge, align: wall-clock time; `align` is all but `load`.
+/// load, prepare, choose, propose, refine, judge, align: wall-clock time; `align` is all but `load`.
 [[nodiscard]] Json seconds_json(double load, const StepSeconds& seconds);
 /// method, profile, plugins, seed, threads, options: what the answer was found with.
 [[nodiscard]] Json configuration_json(Configuration& configuration);

@@ -177,7 +177,7 @@ int run_merge(MergeArguments arguments, const MethodRegistry& methods, std::ostr
   const Interrupt interrupt(stop);
   Watch watch({&progress, &trace});
   const SerialMerge merge =
-      merge_serially({maps, prior, configuration.merger(), configuration.pipeline(), configuration.fuse()},
+      merge_serially({maps, prior, configuration.methods(), configuration.pipeline(), configuration.fuse()},
                      {configuration.seed(), configuration.threads(), stop, &watch});
   progress.finish();
   const bool write = !merge.merged.empty() && !interrupt.happened();

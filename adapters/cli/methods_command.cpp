@@ -66,6 +66,15 @@ std::string method_markdown(const MethodEntry& method) {
   return text;
 }
 
+std::string auto_markdown(const MethodRegistry& methods) {
+  ConfigurationChoice choice;
+  choice.method = kAuto;
+  Configuration configuration(methods, choice);
+  const Configuration::Section selector = configuration.sections().front();
+  return "\n## auto\n\n" + selector.about + " See [selector.md](selector.md).\n\n### `" + selector.name + "`\n\n" +
+         options_markdown(selector.options);
+}
+
 std::string shared_markdown(const MethodRegistry& methods) {
   Configuration configuration(methods, {});
   std::string text = "\n## Around every method\n\n" + options_markdown(configuration.run_options());
@@ -104,8 +113,11 @@ int run_methods(const MethodsArguments& arguments, const MethodRegistry& built_i
     out << (&method == &listed.front() ? "" : "\n")
         << (arguments.markdown ? method_markdown(method) : method_text(method, !arguments.name.empty()));
   }
+  if (!arguments.markdown && arguments.name.empty()) {
+    out << "\nauto: the method is chosen by what the maps look like ('gridmerge align --method auto --explain')\n";
+  }
   if (whole_page) {
-    out << shared_markdown(methods);
+    out << auto_markdown(methods) << shared_markdown(methods);
   }
   return kDone;
 }

@@ -24,9 +24,9 @@ int run_program(int argc, const char* const* argv, std::ostream& out, const std:
   app.footer(kFooter);
   const MethodRegistry methods = all_methods();
   const CommandContext context{app, methods};
-  std::vector<Command> commands = {align_command(context),       merge_command(context),   evaluate_command(context),
-                                   inspect_command(context),     methods_command(context), config_command(context),
-                                   check_config_command(context)};
+  std::vector<Command> commands = {align_command(context),    merge_command(context),       evaluate_command(context),
+                                   features_command(context), inspect_command(context),     methods_command(context),
+                                   config_command(context),   check_config_command(context)};
   for (const CommandMaker make : further) {
     commands.push_back(make(context));
   }

@@ -27,6 +27,7 @@ struct CommandContext {
 [[nodiscard]] Command align_command(const CommandContext& context);
 [[nodiscard]] Command merge_command(const CommandContext& context);
 [[nodiscard]] Command evaluate_command(const CommandContext& context);
+[[nodiscard]] Command features_command(const CommandContext& context);
 [[nodiscard]] Command inspect_command(const CommandContext& context);
 [[nodiscard]] Command methods_command(const CommandContext& context);
 [[nodiscard]] Command config_command(const CommandContext& context);

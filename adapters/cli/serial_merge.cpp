@@ -95,7 +95,7 @@ class SerialMerger {
   }
 
   bool add_if_it_fits(const OccupancyGrid& target, std::size_t map) {
-    Alignment alignment = align({target, input_.maps[map], input_.prior}, input_.method, input_.options, context_);
+    Alignment alignment = align({target, input_.maps[map], input_.prior}, input_.methods, input_.options, context_);
     reasons_[map] = status_of(alignment.outcome) + ": " + reasons_of(alignment).front();
     std::vector<std::size_t> targets;
     for (const MergedMap& one : result_.merged) {

@@ -12,7 +12,7 @@ namespace gridmerge::cli {
 struct SerialMergeInput {
   const std::vector<OccupancyGrid>& maps;  ///< borrowed, as all the rest
   std::optional<PosePrior> prior;          ///< where the second map lies in the first; for two maps only
-  const Merger& method;
+  const Chooser& methods;
   const PipelineOptions& options;
   const FuseOptions& fuse;
 };

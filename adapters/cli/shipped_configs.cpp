@@ -24,6 +24,13 @@ std::vector<ShippedConfig> shipped_configs(const MethodRegistry& methods) {
                            configuration_yaml(configuration, [&](const std::string& s) { return s == method.name; })});
     }
   }
+  ConfigurationChoice choice;
+  choice.method = kAuto;
+  Configuration automatic(methods, choice);
+  files.push_back({"auto.yaml", std::string("# auto: the method is chosen by what the maps look like.\n") + kOrigin +
+                                    configuration_yaml(automatic, [](const std::string& section) {
+                                      return section == kAuto || section == "selector";
+                                    })});
   Configuration configuration(methods, {});
   files.push_back({"pipeline.yaml", std::string("# What stands around the method, whichever it is.\n") + kOrigin +
                                         configuration_yaml(configuration, [&](const std::string& section) {

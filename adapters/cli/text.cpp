@@ -59,6 +59,15 @@ std::string list_text(const std::vector<std::string>& items) {
   return text;
 }
 
+std::string choice_text(const Alignment& alignment) {
+  std::string text = "\nChoice of the method\n" + list_text(alignment.story) + "\nTried\n";
+  for (const Attempt& one : alignment.attempts) {
+    text += "  - " + one.method + ": " + status_of(one.outcome) + ", confidence " + fixed(one.confidence, 2) + ", " +
+            fixed(one.seconds, 2) + " s\n";
+  }
+  return text;
+}
+
 std::string alignment_text(const Alignment& alignment, double load_seconds) {
   std::string text = verdict_text(alignment.outcome, alignment.confidence) + "\n";
   const std::vector<Hypothesis>& hypotheses = alignment.hypotheses;
@@ -83,7 +92,8 @@ std::string alignment_text(const Alignment& alignment, double load_seconds) {
     }
   }
   const StepSeconds& s = alignment.seconds;
-  return text + "\nTime\n  " + fixed(s.align, 2) + " s: prepare " + fixed(s.prepare, 2) + ", propose " +
+  const std::string choosing = alignment.story.empty() ? "" : ", choose " + fixed(s.choose, 2);
+  return text + "\nTime\n  " + fixed(s.align, 2) + " s: prepare " + fixed(s.prepare, 2) + choosing + ", propose " +
          fixed(s.propose, 2) + ", refine " + fixed(s.refine, 2) + ", judge " + fixed(s.judge, 2) + "; reading files " +
          fixed(load_seconds, 2) + "\n";
 }

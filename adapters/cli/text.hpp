@@ -24,6 +24,8 @@ namespace gridmerge::cli {
 /// A line "  - ..." for each.
 [[nodiscard]] std::string list_text(const std::vector<std::string>& items);
 
+/// How the method was chosen, and what came of each that was tried.
+[[nodiscard]] std::string choice_text(const Alignment& alignment);
 /// The whole answer: verdict, pose, reasons, next hypotheses, time.
 [[nodiscard]] std::string alignment_text(const Alignment& alignment, double load_seconds);
 

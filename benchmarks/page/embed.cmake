@@ -1,25 +1,10 @@
-# Writes OUTPUT, a C++ source that holds the text of FILES: what assets.hpp declares. A literal may be 64 KiB long
-# everywhere, so longer texts are cut into pieces.
-set(piece 60000)
+# Writes OUTPUT, a C++ source that holds the text of FILES: what assets.hpp declares.
+include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/text_literal.cmake)
 set(pages "")
 set(scripts "")
 
-# The text of a file as an expression of the type std::string.
-function(as_expression file result)
-  file(READ ${file} text)
-  string(LENGTH "${text}" length)
-  set(expression "std::string()")
-  set(from 0)
-  while(from LESS length)
-    string(SUBSTRING "${text}" ${from} ${piece} part)
-    string(APPEND expression "\n      .append(R\"~file~(${part})~file~\")")
-    math(EXPR from "${from} + ${piece}")
-  endwhile()
-  set(${result} "${expression}" PARENT_SCOPE)
-endfunction()
-
 foreach(file IN LISTS FILES)
-  as_expression(${file} text)
+  text_literal(${file} text)
   get_filename_component(extension ${file} LAST_EXT)
   if(file STREQUAL CHART_JS)
     set(chart "${text}")

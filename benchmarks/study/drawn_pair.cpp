@@ -70,6 +70,9 @@ DrawnPair draw(const PairChoice& choice, bool keep_prepared) {
     pair.centre_in_map.push_back(prepared->centre_in_map());
     pair.walls.push_back(static_cast<std::int64_t>(prepared->walls().size()));
     pair.bytes += map.cells.size();
+    if (is_pair) {
+      pair.features.push_back(scene_features(*prepared));
+    }
     if (keep_prepared && is_pair) {
       pair.bytes += bytes_of(*prepared);
       (pair.target ? pair.source : pair.target) = std::move(prepared);

@@ -13,7 +13,7 @@
 namespace gridmerge::study {
 namespace {
 
-constexpr const char* kFormat = "1";
+constexpr const char* kFormat = "2";
 
 std::string quoted(const std::string& name) { return "\"" + name + "\""; }  // "set" is a word of SQL
 

@@ -40,6 +40,7 @@ bool within(const Row& row, const PoseDifference& error) {
 
 void fill_seconds(const StepSeconds& seconds, Row& row) {
   row.prepare_s = seconds.prepare;
+  row.choose_s = seconds.choose;
   row.propose_s = seconds.propose;
   row.refine_s = seconds.refine;
   row.judge_s = seconds.judge;
@@ -51,6 +52,9 @@ void fill_answer(const Alignment& alignment, const DrawnPair& pair, Row& row) {
   row.confidence = alignment.confidence;
   row.reason = cli::reasons_of(alignment).front();
   row.iterations = alignment.iterations;
+  for (const Attempt& attempt : alignment.attempts) {
+    row.tried += (row.tried.empty() ? "" : " ") + attempt.method;
+  }
   if (!alignment.hypotheses.empty()) {
     const Hypothesis& best = alignment.hypotheses.front();
     const Pose2& pose = best.target_from_source.pose;
@@ -201,6 +205,10 @@ Row Laboratory::asked(const PlannedRun& run, const DrawnPair& pair) const {
   for (std::size_t map = 1; map < pair.walls.size(); ++map) {
     row.source_walls += pair.walls[map];
   }
+  if (!choice.is_swarm()) {
+    row.target = pair.features[0];
+    row.source = pair.features[1];
+  }
   row.prior_x_m = row.prior_y_m = row.prior_theta_rad = kNotKnown;
   row.yardstick_s = kNotKnown;
   row.version = version_;
@@ -226,7 +234,7 @@ void Laboratory::merge_two(const PlannedRun& run, const DrawnPair& pair, RunResu
       .seed = run.seed, .num_threads = study_.threads, .stop = {}, .trace = study_.curves ? &recorder : nullptr};
   const ProcessorShare processor;
   const Alignment alignment = align({.target = pair.maps[0], .source = pair.maps[1], .prior = prior},
-                                    configuration.merger(), configuration.pipeline(), context);
+                                    configuration.methods(), configuration.pipeline(), context);
   result.processor_share = study_.threads == 1 ? processor.share() : 1;
   fill_answer(alignment, pair, result.row);
   fill_seconds(alignment.seconds, result.row);
@@ -242,7 +250,7 @@ void Laboratory::merge_many(const PlannedRun& run, const DrawnPair& pair, RunRes
   const auto start = std::chrono::steady_clock::now();
   const cli::SerialMerge merge = cli::merge_serially({.maps = pair.maps,
                                                       .prior = {},
-                                                      .method = configuration.merger(),
+                                                      .methods = configuration.methods(),
                                                       .options = configuration.pipeline(),
                                                       .fuse = configuration.fuse()},
                                                      context);

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "gridmerge/select/scene_features.hpp"
+
 namespace gridmerge::study {
 
 /// One run. Numbers that are not known are NaN.
@@ -54,7 +56,11 @@ struct Row {
   int iterations = 0;
   std::int64_t target_walls = 0;  ///< occupied cells
   std::int64_t source_walls = 0;
+  std::string tried;     ///< the methods, in the order tried; more than one only with method auto
+  SceneFeatures target;  ///< what the maps look like; of a pair only
+  SceneFeatures source;
   double prepare_s = 0;
+  double choose_s = 0;
   double propose_s = 0;
   double refine_s = 0;
   double judge_s = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace gridmerge::verdict_study {
@@ -124,6 +125,16 @@ std::pair<OccupancyGrid, OccupancyGrid> split_in_two(const OccupancyGrid& grid, 
   std::nth_element(places_m.begin(), places_m.begin() + middle, places_m.end());
   const double line_m = places_m[static_cast<std::size_t>(middle)];
   return {strip(grid, along, -kEndless, line_m - gap_m / 2), strip(grid, along, line_m + gap_m / 2, kEndless)};
+}
+
+OccupancyGrid mirrored(OccupancyGrid grid) {
+  const int height = grid.geometry.height;
+  for (int row = 0; row < height / 2; ++row) {
+    for (int column = 0; column < grid.geometry.width; ++column) {
+      std::swap(grid.at({column, row}), grid.at({column, height - 1 - row}));
+    }
+  }
+  return grid;
 }
 
 std::optional<OccupancyGrid> cut_to_overlap(const OccupancyGrid& target, const OccupancyGrid& source,

@@ -28,6 +28,9 @@ struct KnownCells {
 [[nodiscard]] std::pair<OccupancyGrid, OccupancyGrid> split_in_two(const OccupancyGrid& grid, double heading_rad,
                                                                    double share, double gap_m);
 
+/// The map as a mirror along its grid's x axis shows it: like the place, and not the place.
+[[nodiscard]] OccupancyGrid mirrored(OccupancyGrid grid);
+
 /// The part of the source beyond a line across `heading_rad` (source's frame), which is laid so that the target knows
 /// the share `overlap` of that part. None where no such line leaves 50 m2, 8 m2 of them common, and takes a tenth away.
 [[nodiscard]] std::optional<OccupancyGrid> cut_to_overlap(const OccupancyGrid& target, const OccupancyGrid& source,

@@ -1,7 +1,5 @@
 #pragma once
-/// The weights of the verdict's confidence, fitted to rows.
-#include <Eigen/Core>
-#include <array>
+/// The weights of the verdict's confidence, fitted to rows, and how well a confidence keeps its word.
 #include <functional>
 #include <map>
 #include <string>
@@ -12,43 +10,19 @@
 
 namespace gridmerge::verdict_study {
 
-/// An option of the verdict that is a weight.
-struct Weight {
-  const char* key;
-  double VerdictOptions::*value;
-};
-/// The bias, then those of the figures, in the order of figures_of.
-inline constexpr std::array<Weight, 8> kWeights = {{
-    {"bias", &VerdictOptions::bias},
-    {"per_log_same_side", &VerdictOptions::per_log_same_side},
-    {"per_near_conflict", &VerdictOptions::per_near_conflict},
-    {"per_far_conflict", &VerdictOptions::per_far_conflict},
-    {"per_lead", &VerdictOptions::per_lead},
-    {"per_log_overlap", &VerdictOptions::per_log_overlap},
-    {"per_mutual_information", &VerdictOptions::per_mutual_information},
-    {"per_overlap_share", &VerdictOptions::per_overlap_share},
-}};
+/// What the confidence of a row's pose is with these weights, whatever the gates say.
+[[nodiscard]] double confidence_of(const Row& row, const ConfidenceWeights& weights);
 
-/// The seven figures that the confidence is a logistic function of.
-using SevenFigures = Eigen::Matrix<double, 7, 1>;
-[[nodiscard]] SevenFigures figures_of(const Row& row);
-
-/// What the verdict's confidence is with these weights, before its gates.
-[[nodiscard]] double confidence_of(const Row& row, const VerdictOptions& weights);
-/// The gates of the verdict beside the confidence.
-[[nodiscard]] bool passes_gates(const Row& row, const VerdictOptions& gates);
-
-/// Does the row tell anything of the weights? No, if a gate decides it in any case, or nearly so.
+/// Does the row tell anything of the weights? Not where there is no pose, or more speaks against it than for it.
 [[nodiscard]] bool is_fitted(const Row& row);
 
-/// Weights of the logistic function by Newton's method: least of log loss + ridge / 2 * |w|^2, the figures scaled to
-/// mean 0 and deviation 1, the bias free. The other options keep their defaults.
+/// Weights of the logistic function (statistics::fit_logistic) by which `right` is foretold.
 /// @param importance  of each row, >= 0; rows that are not is_fitted do not count
-[[nodiscard]] VerdictOptions fit_weights(const std::vector<Row>& rows, const std::vector<double>& importance,
-                                         double ridge = 0.3);
+[[nodiscard]] ConfidenceWeights fit_weights(const std::vector<Row>& rows, const std::vector<double>& importance,
+                                            double ridge = 1);
 
 /// For each key, the weights fitted to the rows whose keys are not related to it.
-using WeightsByKey = std::map<std::string, VerdictOptions>;
+using WeightsByKey = std::map<std::string, ConfidenceWeights>;
 [[nodiscard]] WeightsByKey fit_without(const std::vector<Row>& rows, const std::vector<double>& importance,
                                        const std::vector<std::string>& keys,
                                        const std::function<bool(const std::string&, const std::string&)>& related);
@@ -62,8 +36,16 @@ using WeightsByKey = std::map<std::string, VerdictOptions>;
 [[nodiscard]] std::vector<std::string> place_keys(const std::vector<Row>& rows);
 [[nodiscard]] bool share_a_place(const std::string& first, const std::string& second);
 
-/// Mean of -log(probability given to what is true) over the rows that are fitted, by importance.
-[[nodiscard]] double log_loss(const std::vector<Row>& rows, const std::vector<double>& importance,
-                              const std::vector<double>& confidence);
+/// A part of rows by a confidence: those between two bounds.
+struct ReliabilityBin {
+  double low = 0;
+  double high = 1;
+  int rows = 0;
+  double mean_confidence = 0;
+  double share_right = 0;
+};
+[[nodiscard]] std::vector<ReliabilityBin> reliability(const std::vector<Row>& rows,
+                                                      const std::vector<double>& confidence, int bins = 10);
+[[nodiscard]] double calibration_error(const std::vector<Row>& rows, const std::vector<double>& confidence);
 
 }  // namespace gridmerge::verdict_study

@@ -11,6 +11,7 @@
 #include "gridmerge/base/random.hpp"
 #include "map_server/map_files.hpp"
 #include "verdict/derived.hpp"
+#include "verdict/drawn_scenes.hpp"
 
 namespace gridmerge::verdict_study {
 namespace {
@@ -22,9 +23,8 @@ constexpr double kLeastSplitArea = 180;   // [m2]
 constexpr double kLeastHalfArea = 60;     // [m2]
 constexpr double kSplitGap = 1;           // [m]
 constexpr double kLeastOverlap = 0.01;    // of a drawn pair that is to overlap
-// Drift bends drawn maps away from the truth, which is that of the start poses.
-constexpr double kDrawnTolerance = 1.2;  // [m]
-constexpr double kDrawnToleranceDeg = 5;
+constexpr double kDrawnTolerance = 0.5;   // [m]
+constexpr double kDrawnToleranceDeg = 3;
 
 /// A map that a manifest names.
 struct NamedMap {
@@ -144,54 +144,17 @@ std::vector<PairPlan> split_plans(const std::vector<NamedMap>& maps, const Place
   return plans;
 }
 
-/// The kinds of scene take turns; the rest is chance.
 PairPlan drawn_plan(std::uint64_t seed, std::uint64_t index) {
-  struct Turn {
-    const char* world;
-    const char* relation;
-  };
-  static constexpr std::array<Turn, 18> kTurns = {{
-      {"office", "overlap"},
-      {"office", "two_worlds"},
-      {"office", "mirrored"},
-      {"office", "two_ends"},
-      {"maze", "overlap"},
-      {"maze", "two_worlds"},
-      {"maze", "mirrored"},
-      {"maze", "two_ends"},
-      {"flat", "overlap"},
-      {"flat", "two_worlds"},
-      {"flat", "mirrored"},
-      {"flat", "two_ends"},
-      {"forest", "overlap"},
-      {"forest", "two_worlds"},
-      {"forest", "mirrored"},
-      {"forest", "two_ends"},
-      {"corridor", "overlap"},
-      {"hall", "overlap"},
-  }};
-  const Turn& turn = kTurns[index % kTurns.size()];
-  const std::string world = turn.world;
-  RandomStream chance(seed, "verdict/scene", index);
-  PairPlan plan = {.kind = world == "corridor" || world == "hall" ? "ambiguous" : turn.relation,
-                   .set = world,
-                   .places = world,
-                   .target_name = "drawn_" + std::to_string(index) + "_a",
-                   .source_name = "drawn_" + std::to_string(index) + "_b",
-                   .target_yaml = {},
-                   .source_yaml = {},
-                   .truth = {},
-                   .scene = {}};
-  worlds::SceneOptions& scene = plan.scene;
-  scene.kind = world;
-  scene.relation = turn.relation;
-  scene.seed = static_cast<int>(chance.below(1U << 30));
-  scene.target_share = chance.uniform(0.4, 1);
-  scene.source_share = chance.uniform(0.4, 1);
-  scene.rotation_deg = chance.uniform(-180, 180);
-  scene.drift_m = chance.uniform(0, 0.01);
-  scene.drift_deg = chance.uniform(0, 0.075);
-  return plan;
+  DrawnScene scene = drawn_scene(seed, index);
+  return {.kind = scene.kind,
+          .set = scene.options.kind,
+          .places = scene.options.kind,
+          .target_name = "drawn_" + std::to_string(index) + "_a",
+          .source_name = "drawn_" + std::to_string(index) + "_b",
+          .target_yaml = {},
+          .source_yaml = {},
+          .truth = {},
+          .scene = std::move(scene.options)};
 }
 
 StudyPair drawn_pair(const PairPlan& plan) {
@@ -201,9 +164,12 @@ StudyPair drawn_pair(const PairPlan& plan) {
                     .truth = "different",
                     .pose = {},
                     .overlap = drawn.overlap};
-  if (drawn.overlap >= kLeastOverlap) {
-    pair.truth = plan.kind == "ambiguous" ? "ambiguous" : "same";
-    pair.pose = {drawn.target_from_source, kDrawnTolerance, radians(kDrawnToleranceDeg)};
+  if (plan.kind == "ambiguous") {
+    pair.truth = "ambiguous";
+  } else if (drawn.truth_is_same && drawn.overlap >= kLeastOverlap) {
+    pair.truth = "same";
+    pair.pose = {drawn.met_target_from_source, kDrawnTolerance, radians(kDrawnToleranceDeg)};
+    pair.met_residual_m = drawn.met_residual_m;
   }
   return pair;
 }
@@ -220,7 +186,7 @@ std::vector<PairPlan> plan_pairs(const PairOptions& options) {
   const std::vector<NamedMap> maps = maps_of(known, options.threads);
 
   std::vector<PairPlan> plans;
-  for (const char* kind : {"pair", "erased", "cut"}) {
+  for (const char* kind : {"pair", "erased", "cut", "cut", "cut", "cut", "cut", "flipped"}) {
     for (const ManifestPair& pair : known) {
       if (pair.truth || std::string(kind) == "pair") {
         plans.push_back(plan_of(pair, kind, places));
@@ -260,13 +226,15 @@ std::optional<StudyPair> build_pair(const PairPlan& plan) {
     if (std::min(known_cells(pair.target).area_m2, known_cells(pair.source).area_m2) <= kLeastHalfArea) {
       return std::nullopt;
     }
+  } else if (plan.kind == "flipped") {
+    pair.source = mirrored(std::move(pair.source));
   } else if (plan.truth) {
     pair.truth = "same";
     pair.pose = plan.truth;
     if (plan.kind == "cut") {
       const double heading_rad = chance.uniform(-kPi, kPi);
       std::optional<OccupancyGrid> cut = cut_to_overlap(pair.target, pair.source, plan.truth->target_from_source,
-                                                        heading_rad, chance.uniform(0.15, 0.5));
+                                                        heading_rad, chance.uniform(0.15, 0.95));
       if (!cut) {
         return std::nullopt;
       }

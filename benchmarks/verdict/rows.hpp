@@ -23,15 +23,14 @@ struct Row {
   double overlap = 0;
   bool right = false;  ///< the first hypothesis lies within the tolerance, whatever the verdict; only where same
   std::string outcome;
-  double confidence = 0;
+  double confidence = 0;                ///< as told
+  bool vetoed = false;                  ///< a gate is broken
   std::optional<PoseDifference> error;  ///< of the first hypothesis, at the centre of the source's known cells
-  double lead = 0;
-  double lead_m = 0;
-  double deviations = 0;
-  std::vector<std::pair<std::string, double>> figures;  ///< Figures::named of the first hypothesis; zero if none
-
-  /// @throws std::out_of_range if there is none of that name
-  [[nodiscard]] double figure(const std::string& name) const;
+  double seconds = 0;                   ///< of the alignment, on one thread
+  double judge_s = 0;                   ///< of it, the verdict's
+  double evidence_m = 0;
+  double conflict_share = 0;
+  ConfidenceFigures figures;  ///< what the confidence was computed from; zero where there was no pose
 };
 
 /// Told after each pair how many are done, from any thread but one at a time.

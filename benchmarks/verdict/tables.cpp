@@ -8,8 +8,6 @@
 namespace gridmerge::verdict_study {
 namespace {
 
-constexpr std::array<double, 4> kThresholds = {0.8, 0.85, 0.9, 0.95};
-
 /// Indices of rows of one kind and set; the last group holds all.
 struct Group {
   std::string kind;
@@ -59,28 +57,10 @@ std::string fixed(double value, int digits) {
   return text;
 }
 
-/// "right + wrong" for each threshold.
-std::vector<std::string> passing(const std::vector<Row>& rows, const Group& group,
-                                 const std::vector<double>& confidence) {
-  std::vector<std::string> cells;
-  for (const double threshold : kThresholds) {
-    int right = 0;
-    int wrong = 0;
-    for (const std::size_t i : group.rows) {
-      if (confidence[i] >= threshold && passes_gates(rows[i], {})) {
-        (rows[i].right ? right : wrong) += 1;
-      }
-    }
-    cells.push_back(std::to_string(right) + (wrong > 0 ? " + **" + std::to_string(wrong) + "**" : ""));
-  }
-  return cells;
-}
+bool merges(const Row& row, double confidence, double needed) { return confidence >= needed && !row.vetoed; }
 
-std::vector<std::string> with_thresholds(std::vector<std::string> names) {
-  for (const double threshold : kThresholds) {
-    names.push_back("at " + fixed(threshold, 2));
-  }
-  return names;
+std::string rate(int part, int of) {
+  return of == 0 ? "-" : std::to_string(part) + "/" + std::to_string(of) + " (" + fixed(100.0 * part / of, 2) + " %)";
 }
 
 }  // namespace
@@ -104,44 +84,106 @@ std::string outcome_table(const std::vector<Row>& rows) {
   return text;
 }
 
-std::string weight_table(const VerdictOptions& built_in, const VerdictOptions& fitted, const WeightsByKey& folds) {
+std::string weight_table(const ConfidenceWeights& built_in, const ConfidenceWeights& fitted,
+                         const WeightsByKey& folds) {
   std::string text = heading_of({"weight", "built in", "fitted", "fitted, place by place"});
-  for (const Weight& weight : kWeights) {
+  const auto line = [&](const std::string& name, const auto& weight_of) {
     std::vector<double> values;
-    for (const auto& [key, options] : folds) {
-      values.push_back(options.*weight.value);
+    for (const auto& [key, weights] : folds) {
+      values.push_back(weight_of(weights));
     }
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    text += line_of({weight.key, fixed(built_in.*weight.value, 2), fixed(fitted.*weight.value, 2),
+    text += line_of({name, fixed(weight_of(built_in), 2), fixed(weight_of(fitted), 2),
                      values.empty() ? "" : fixed(*low, 2) + " .. " + fixed(*high, 2)});
+  };
+  line("bias", [](const ConfidenceWeights& weights) { return weights.bias; });
+  for (const ConfidenceTerm& term : confidence_terms()) {
+    line("per_" + std::string(term.name), [&](const ConfidenceWeights& weights) { return weights.per.*term.figure; });
   }
   return text;
 }
 
-std::string summary_table(const std::vector<Row>& rows, const std::vector<Judgement>& judgements) {
-  std::string text = heading_of(with_thresholds({"weights", "log loss"}));
-  const Group all = groups_of(rows).back();
-  for (const Judgement& judgement : judgements) {
-    std::vector<std::string> cells = passing(rows, all, judgement.confidence);
-    cells.insert(cells.begin(), {judgement.name, fixed(judgement.log_loss, 4)});
-    text += line_of(cells);
+std::string strictness_table(const std::vector<Row>& rows, const std::vector<double>& confidence) {
+  std::vector<std::string> names = {"kind", "pairs"};
+  for (const Strictness& one : degrees_of_strictness()) {
+    names.push_back(std::string(one.name) + ": wrong merges");
+    names.emplace_back("missed");
   }
-  return text;
-}
-
-std::string threshold_table(const std::vector<Row>& rows, const Judgement& judgement) {
-  std::string text = heading_of(with_thresholds({"kind", "set", "pairs", "pose@1"}));
-  for (const Group& group : groups_of(rows)) {
-    std::vector<std::string> cells = passing(rows, group, judgement.confidence);
-    const auto right =
-        std::count_if(group.rows.begin(), group.rows.end(), [&](std::size_t i) { return rows[i].right; });
-    if (right == 0 && cells.front() == "0") {
-      continue;
+  std::string text = heading_of(names);
+  std::vector<std::string> kinds;
+  for (const Row& row : rows) {
+    if (std::find(kinds.begin(), kinds.end(), row.kind) == kinds.end()) {
+      kinds.push_back(row.kind);
     }
-    cells.insert(cells.begin(), {group.kind, group.set, std::to_string(group.rows.size()), std::to_string(right)});
+  }
+  kinds.emplace_back("all");
+  for (const std::string& kind : kinds) {
+    std::vector<std::string> cells = {kind, ""};
+    for (const Strictness& one : degrees_of_strictness()) {
+      int pairs = 0;
+      int wrong = 0;
+      int missed = 0;
+      int same = 0;
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (kind != "all" && rows[i].kind != kind) {
+          continue;
+        }
+        const bool merged = merges(rows[i], confidence[i], one.min_confidence);
+        ++pairs;
+        wrong += merged && !rows[i].right ? 1 : 0;
+        same += rows[i].truth == "same" ? 1 : 0;
+        missed += rows[i].truth == "same" && !merged ? 1 : 0;
+      }
+      cells[1] = std::to_string(pairs);
+      cells.push_back(rate(wrong, pairs));
+      cells.push_back(rate(missed, same));
+    }
     text += line_of(cells);
   }
   return text;
+}
+
+std::string overlap_table(const std::vector<Row>& rows, const std::vector<double>& confidence) {
+  constexpr std::array<double, 9> kBounds = {0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 0.9, 1.0001};
+  std::vector<std::string> names = {"overlap", "pairs", "first pose right"};
+  for (const Strictness& one : degrees_of_strictness()) {
+    names.push_back(std::string(one.name) + ": right");
+    names.emplace_back("wrong");
+  }
+  std::string text = heading_of(names);
+  for (std::size_t band = 0; band + 1 < kBounds.size(); ++band) {
+    const auto is_in = [&](const Row& row) {
+      return row.truth == "same" && row.overlap >= kBounds[band] && row.overlap < kBounds[band + 1];
+    };
+    const int pairs = static_cast<int>(std::count_if(rows.begin(), rows.end(), is_in));
+    const int first = static_cast<int>(
+        std::count_if(rows.begin(), rows.end(), [&](const Row& row) { return is_in(row) && row.right; }));
+    std::vector<std::string> cells = {fixed(kBounds[band], 1) + " .. " + fixed(kBounds[band + 1], 1),
+                                      std::to_string(pairs), rate(first, pairs)};
+    for (const Strictness& one : degrees_of_strictness()) {
+      int right = 0;
+      int wrong = 0;
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (is_in(rows[i]) && merges(rows[i], confidence[i], one.min_confidence)) {
+          (rows[i].right ? right : wrong) += 1;
+        }
+      }
+      cells.push_back(rate(right, pairs));
+      cells.push_back(std::to_string(wrong));
+    }
+    text += line_of(cells);
+  }
+  return text;
+}
+
+std::string reliability_table(const std::vector<Row>& rows, const std::vector<double>& confidence) {
+  std::string text = heading_of({"confidence", "rows", "mean confidence", "share right"});
+  for (const ReliabilityBin& bin : reliability(rows, confidence)) {
+    text += line_of({fixed(bin.low, 1) + " .. " + fixed(bin.high, 1), std::to_string(bin.rows),
+                     bin.rows > 0 ? fixed(bin.mean_confidence, 3) : "", bin.rows > 0 ? fixed(bin.share_right, 3) : ""});
+  }
+  return text + "\nExpected calibration error: " + fixed(calibration_error(rows, confidence), 4) + " over " +
+         std::to_string(rows.size()) + " rows.\n";
 }
 
 }  // namespace gridmerge::verdict_study

@@ -7,23 +7,22 @@
 
 namespace gridmerge::verdict_study {
 
-/// Per kind and set, what the built-in verdict did: right, wrong, missed, refused, false.
+/// Per kind and set, what the verdict did: right, wrong, missed, refused, false.
 [[nodiscard]] std::string outcome_table(const std::vector<Row>& rows);
 
 /// The weights side by side, and how far those of single folds stray.
-[[nodiscard]] std::string weight_table(const VerdictOptions& built_in, const VerdictOptions& fitted,
+[[nodiscard]] std::string weight_table(const ConfidenceWeights& built_in, const ConfidenceWeights& fitted,
                                        const WeightsByKey& folds);
 
-/// A confidence for every row, by some weights.
-struct Judgement {
-  std::string name;
-  std::vector<double> confidence;
-  double log_loss = 0;
-};
+/// For each degree of strictness and each kind: merges that are wrong, of those that could be, and right ones that were
+/// missed; with the gates as they were when the rows were made.
+[[nodiscard]] std::string strictness_table(const std::vector<Row>& rows, const std::vector<double>& confidence);
 
-/// In all: log loss, and at each threshold how many right and how many wrong answers pass, with the verdict's gates.
-[[nodiscard]] std::string summary_table(const std::vector<Row>& rows, const std::vector<Judgement>& judgements);
-/// The same per kind and set, for one of them; without those where nothing is right and nothing passes.
-[[nodiscard]] std::string threshold_table(const std::vector<Row>& rows, const Judgement& judgement);
+/// Rows whose truth is "same", by how much the maps overlap: how many are merged rightly and wrongly at each
+/// strictness.
+[[nodiscard]] std::string overlap_table(const std::vector<Row>& rows, const std::vector<double>& confidence);
+
+/// Told and true, bin by bin, with the expected calibration error.
+[[nodiscard]] std::string reliability_table(const std::vector<Row>& rows, const std::vector<double>& confidence);
 
 }  // namespace gridmerge::verdict_study

@@ -3,10 +3,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <sstream>
 #include <string>
@@ -18,6 +20,7 @@
 #include "map_server/whole_files.hpp"
 #include "methods/register_all.hpp"
 #include "verdict/fit.hpp"
+#include "verdict/pictures.hpp"
 #include "verdict/tables.hpp"
 
 namespace {
@@ -49,11 +52,11 @@ void run_rows(const PairOptions& options, const std::filesystem::path& output) {
   write_whole_file(output, to_csv(make_rows(plans, *method, {}, options.threads, watcher)));
 }
 
-/// "KIND=W" each; kinds that are not named count once.
+/// "KIND=W" each. Others count once, but for the manifests' own pairs: those the verdict is judged on.
 std::vector<double> importance_of(const std::vector<Row>& rows, const std::vector<std::string>& arguments) {
   std::map<std::string, double> of_kind;
   for (const Row& row : rows) {
-    of_kind[row.kind] = 1;
+    of_kind[row.kind] = row.kind == "pair" ? 0 : 1;
   }
   for (const std::string& argument : arguments) {
     const std::size_t equals = std::min(argument.find('='), argument.size());
@@ -72,55 +75,92 @@ std::vector<double> importance_of(const std::vector<Row>& rows, const std::vecto
   return importance;
 }
 
-/// The weights alone, as the section `verdict` of a configuration.
-std::string weights_yaml(VerdictOptions options) {
-  OptionList weights;
-  const OptionList all = option_list(options);
-  for (const Weight& weight : kWeights) {
-    for (const OptionField& field : all.fields()) {
-      if (field.key == weight.key) {
-        weights.add(field.key, options.*weight.value, field.low, field.high, field.text);
-      }
-    }
+/// The weights alone, as the section `verdict` of a configuration; four digits say enough.
+std::string weights_yaml(ConfidenceWeights weights) {
+  const auto rounded = [](double value) { return std::round(value * 1e4) / 1e4; };
+  OptionList list;
+  weights.bias = rounded(weights.bias);
+  list.add("bias", weights.bias, -1e3, 1e3, {"", "", ""});
+  for (const ConfidenceTerm& term : confidence_terms()) {
+    weights.per.*term.figure = rounded(weights.per.*term.figure);
+    list.add("per_" + std::string(term.name), weights.per.*term.figure, -1e3, 1e3, {"", "", ""});
   }
-  return to_yaml("verdict", weights);
+  return to_yaml("verdict", list);
 }
 
-void run_fit(const std::vector<Row>& rows, const std::vector<std::string>& weights, std::uint64_t seed,
-             const std::filesystem::path& output) {
-  const std::vector<double> importance = importance_of(rows, weights);
-  const VerdictOptions fitted = fit_weights(rows, importance);
-  const auto judgement = [&](const std::string& name, std::vector<double> confidence) {
-    const double loss = log_loss(rows, importance, confidence);
-    return Judgement{.name = name, .confidence = std::move(confidence), .log_loss = loss};
-  };
-  const auto by = [&](const VerdictOptions& options) {
-    std::vector<double> confidence;
-    for (const Row& row : rows) {
-      confidence.push_back(confidence_of(row, options));
-    }
-    return confidence;
-  };
+std::vector<double> told_by(const std::vector<Row>& rows, const ConfidenceWeights& weights) {
+  std::vector<double> confidence;
+  for (const Row& row : rows) {
+    confidence.push_back(confidence_of(row, weights));
+  }
+  return confidence;
+}
+
+/// The rows of drawn scenes, or those of real maps and of the manifests.
+std::vector<Row> part_of(const std::vector<Row>& rows, bool drawn) {
+  std::vector<Row> part;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(part),
+               [&](const Row& row) { return row.a.starts_with("drawn_") == drawn; });
+  return part;
+}
+
+void print_judgement(const std::string& name, const std::vector<Row>& rows, const std::vector<double>& confidence) {
+  std::cout << "\n## " << name << "\n\n### By strictness\n\n"
+            << strictness_table(rows, confidence) << "\n### By overlap\n\n"
+            << overlap_table(rows, confidence) << "\n### Reliability\n\n"
+            << reliability_table(rows, confidence);
+}
+
+void run_fit(const std::vector<Row>& rows, const std::vector<std::string>& kinds, std::uint64_t seed, double ridge,
+             const std::filesystem::path& output, const std::string& command) {
+  const std::vector<double> importance = importance_of(rows, kinds);
+  const ConfidenceWeights fitted = fit_weights(rows, importance, ridge);
   const std::vector<std::string> folds = chance_keys(rows, kFolds, seed);
   const std::vector<std::string> places = place_keys(rows);
   const WeightsByKey by_fold = fit_without(rows, importance, folds, std::equal_to<>());
   const WeightsByKey by_place = fit_without(rows, importance, places, share_a_place);
-  const std::vector<Judgement> judgements = {
-      judgement("built in", by({})), judgement("fitted", by(fitted)),
-      judgement("fitted, in " + std::to_string(kFolds) + " folds", confidence_of(rows, folds, by_fold)),
-      judgement("fitted, place by place", confidence_of(rows, places, by_place))};
-  const auto counted = std::count_if(rows.begin(), rows.end(), is_fitted);
-  const std::string yaml = weights_yaml(fitted);
+  std::size_t counted = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    counted += is_fitted(rows[i]) && importance[i] > 0 ? 1 : 0;
+  }
+  const std::string yaml = "# What the figures of the confidence weigh (docs/verdict.md). Fitted to " +
+                           std::to_string(counted) + " rows by\n#     " + command + "\n" + weights_yaml(fitted);
   if (output.empty()) {
     std::cout << "```yaml\n" << yaml << "```\n\n";
   } else {
     write_whole_file(output, yaml);
   }
   std::cout << "Fitted to " << counted << " of " << rows.size() << " rows.\n\n"
-            << weight_table({}, fitted, by_place) << "\nAnswers that pass a threshold: right + **wrong**.\n\n"
-            << summary_table(rows, judgements);
-  for (const std::size_t shown : {std::size_t{1}, std::size_t{3}}) {
-    std::cout << "\n### " << judgements[shown].name << "\n\n" << threshold_table(rows, judgements[shown]);
+            << weight_table(VerdictOptions::learned_weights(), fitted, by_place);
+  print_judgement("Fitted, in " + std::to_string(kFolds) + " folds", rows, confidence_of(rows, folds, by_fold));
+  print_judgement("Fitted, place by place", rows, confidence_of(rows, places, by_place));
+}
+
+/// What the built-in verdict did, on rows that it was not fitted to.
+void run_judge(const std::vector<Row>& rows, const std::filesystem::path& pictures) {
+  const ConfidenceWeights weights = VerdictOptions::learned_weights();
+  std::vector<Told> told;
+  for (const bool drawn : {true, false}) {
+    const std::vector<Row> part = part_of(rows, drawn);
+    if (part.empty()) {
+      continue;
+    }
+    const std::string name = drawn ? "drawn scenes" : "real maps";
+    const std::vector<double> confidence = told_by(part, weights);
+    print_judgement(name, part, confidence);
+    told.push_back({name, part, confidence});
+  }
+  std::vector<double> seconds;
+  for (const Row& row : rows) {
+    seconds.push_back(row.judge_s);
+  }
+  std::sort(seconds.begin(), seconds.end());
+  if (!seconds.empty()) {
+    std::cout << "\nTime of the verdict, on one thread: median " << 1e3 * seconds[seconds.size() / 2] << " ms, 95 % "
+              << 1e3 * seconds[seconds.size() * 95 / 100] << " ms.\n";
+  }
+  if (!pictures.empty()) {
+    write_pictures(told, pictures);
   }
 }
 
@@ -135,6 +175,9 @@ int main(int argc, char** argv) {
   std::vector<std::string> weights;
   std::filesystem::path output;
   std::filesystem::path input;
+  std::filesystem::path pictures;
+  std::string command = "gridmerge_verdict fit";
+  double ridge = 1;
   std::uint64_t fold_seed = 1;
 
   CLI::App* rows = app.add_subcommand("rows", "Aligns pairs and writes what was said of each");
@@ -159,6 +202,16 @@ int main(int argc, char** argv) {
   fit->add_option("--seed", fold_seed, "Of the folds")->capture_default_str();
   fit->add_option("-o,--output", output, "YAML file for the weights, as `gridmerge --config` takes it");
 
+  fit->add_option("--ridge", ridge, "Pulls the weights to zero, the figures scaled to deviation 1")
+      ->capture_default_str();
+  fit->add_option("--command", command, "How it was fitted, for the file's heading");
+
+  CLI::App* judge_rows = app.add_subcommand("judge", "How sure the built-in confidence is, and how often it is right");
+  judge_rows->add_option("rows", input, "CSV file that `rows` wrote, of pairs that the weights were not fitted to")
+      ->required()
+      ->check(CLI::ExistingFile);
+  judge_rows->add_option("--pictures", pictures, "Folder for reliability.png and roc.png");
+
   CLI::App* table = app.add_subcommand("table", "Prints what the built-in verdict did on rows");
   table->add_option("rows", input, "CSV file that `rows` wrote")->required()->check(CLI::ExistingFile);
 
@@ -170,7 +223,9 @@ int main(int argc, char** argv) {
       }
       run_rows(options, output);
     } else if (fit->parsed()) {
-      run_fit(read_rows(input), weights, fold_seed, output);
+      run_fit(read_rows(input), weights, fold_seed, ridge, output, command);
+    } else if (judge_rows->parsed()) {
+      run_judge(read_rows(input), pictures);
     } else {
       std::cout << outcome_table(read_rows(input));
     }

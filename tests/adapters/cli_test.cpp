@@ -163,6 +163,62 @@ TEST_F(AlignCommand, SaysItInWordsWithoutJson) {
                                 HasSubstr("\nTime\n")));
 }
 
+TEST_F(AlignCommand, AutoChoosesAndExplainsTheChoice) {
+  const Ended told = run("align a.yaml b.yaml --method auto --explain");
+  EXPECT_EQ(told.status, 0) << told.err;
+  EXPECT_THAT(told.out,
+              AllOf(HasSubstr("\nChoice of the method\n  - target: straightness"), HasSubstr("prior: none"),
+                    HasSubstr("genetic bids"), HasSubstr(" runs: "), HasSubstr("\nTried\n  - "), HasSubstr("choose ")));
+  const json answer = answer_of(run("align a.yaml b.yaml --method auto --json --prior 0,0,0,50,180"));
+  EXPECT_EQ(answer.at("method"), "auto");
+  EXPECT_FALSE(answer.at("attempts").empty());
+  EXPECT_THAT(answer.at("choice").dump(), AllOf(HasSubstr("within 50.0 m and 180 deg"), HasSubstr("no limit")));
+  EXPECT_THAT(keys_of(answer.at("options")), AllOf(Contains("selector"), Contains("genetic"), Contains("som")));
+  EXPECT_GT(answer.at("seconds").at("choose"), 0.0);
+  EXPECT_THAT(refusal(2, "align a.yaml b.yaml --explain"), HasSubstr("--method auto"));
+  EXPECT_THAT(refusal(2, "align a.yaml b.yaml --method auto --profile paper"), HasSubstr("known: default"));
+}
+
+TEST_F(AlignCommand, AutoReadsOtherBids) {
+  write_text(folder / "bids.yaml",
+             "methods: {som: {success: {bias: 3}, log_seconds: {bias: -2}}}\nsecond_chance: {bias: -9}\n");
+  const json answer = answer_of(run("align a.yaml b.yaml --method auto --bids bids.yaml --json"));
+  ASSERT_EQ(answer.at("attempts").size(), 1U);
+  EXPECT_EQ(answer.at("attempts")[0].at("method"), "som");
+  write_text(folder / "my.yaml", "method: auto\nbids: bids.yaml\nselector: {at_most: 1}\n");
+  EXPECT_EQ(answer_of(run("align a.yaml b.yaml --config my.yaml --json")).at("attempts")[0].at("method"), "som");
+  EXPECT_THAT(refusal(2, "align a.yaml b.yaml --bids bids.yaml"), HasSubstr("only --method auto reads it"));
+  write_text(folder / "my.yaml", "method: genetic\nbids: bids.yaml\n");
+  EXPECT_THAT(refusal(1, "align a.yaml b.yaml --config my.yaml"), HasSubstr("my.yaml:2: bids"));
+  write_text(folder / "bids.yaml", "methods: {som: {success: {colour: 3}, log_seconds: {bias: -2}}}\n");
+  EXPECT_THAT(refusal(1, "align a.yaml b.yaml --method auto --bids bids.yaml"),
+              AllOf(HasSubstr("bids.yaml:1: "), HasSubstr("colour")));
+  for (const char* name : {"bids.yaml", "my.yaml"}) {
+    fs::remove(folder / name);
+  }
+}
+
+TEST_F(AlignCommand, StrictnessSaysHowSureAMergeMustBe) {
+  const json cautious = answer_of(run("align a.yaml b.yaml --strictness cautious --json"));
+  EXPECT_EQ(cautious.at("options").at("verdict").at("strictness"), "cautious");
+  EXPECT_THAT(refusal(2, "align a.yaml b.yaml --strictness reckless"),
+              AllOf(HasSubstr("--strictness reckless"), HasSubstr("cautious | normal | eager")));
+  EXPECT_EQ(run("align a.yaml b.yaml --set verdict.min_confidence=1").status, 3);
+}
+
+TEST_F(CommandLine, FeaturesTellWhatMapsLookLike) {
+  const Ended told = run("features a.yaml b.yaml");
+  EXPECT_EQ(told.status, 0) << told.err;
+  EXPECT_THAT(told.out, AllOf(StartsWith("a.yaml\n  straightness"), HasSubstr("\n\nb.yaml\n"),
+                              HasSubstr("self_similarity"), HasSubstr(" m2 ")));
+  const json all = answer_of(run("features a.yaml unknown.yaml --json"));
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].at("map"), "a.yaml");
+  EXPECT_GT(all[0].at("occupied_cells"), 100.0);
+  EXPECT_EQ(all[1].at("known_area_m2"), 0.0);
+  EXPECT_THAT(refusal(1, "features nowhere.yaml"), HasSubstr("nowhere.yaml"));
+}
+
 TEST_F(AlignCommand, SwappedMapsGiveTheInversePose) {
   const json there = answer_of(run("align a.yaml b.yaml --json"));
   const json back = answer_of(run("align b.yaml a.yaml --json"));
@@ -511,6 +567,12 @@ TEST(ShippedConfigs, AreTheBuiltInDefaults) {
   }
 }
 
+TEST_F(ConfigCommand, TheLearnedWeightsAreBuiltIn) {
+  const std::string defaults = run("config verdict").out;
+  EXPECT_EQ(run("config verdict --config '" GRIDMERGE_CONFIGS "/learned/verdict.yaml'").out, defaults);
+  EXPECT_THAT(content_of(fs::path(GRIDMERGE_CONFIGS) / "learned" / "verdict.yaml"), HasSubstr("gridmerge_verdict fit"));
+}
+
 TEST_F(ConfigCommand, EveryShippedFileLoads) {
   for (const std::string& name : names_in(GRIDMERGE_CONFIGS)) {
     if (name.ends_with(".yaml")) {
@@ -549,13 +611,14 @@ TEST_F(ConfigCommand, CheckConfigTellsEveryProblemWithItsLine) {
              "verdict: {min_lead: 0.1, min_lead: 0.2}\n"
              "judge: {}\n");
   const std::string told = refusal(1, "check-config bad.yaml");
-  EXPECT_THAT(told,
-              AllOf(HasSubstr("bad.yaml:2: threads = 'many' is not a whole number"),
-                    HasSubstr("bad.yaml:4: population = 3 poses is out of range: 4 .. 100000"),
-                    HasSubstr("bad.yaml:5: unknown key 'populaton'; known keys: population, "),
-                    HasSubstr("bad.yaml:6: repeated key 'min_lead'"),
-                    HasSubstr("bad.yaml:7: unknown key 'judge'; known keys: plugins, method, profile, seed, threads, "
-                              "genetic, pipeline, prepare, refine, evaluator, verdict, fuse")));
+  EXPECT_THAT(
+      told,
+      AllOf(HasSubstr("bad.yaml:2: threads = 'many' is not a whole number"),
+            HasSubstr("bad.yaml:4: population = 3 poses is out of range: 4 .. 100000"),
+            HasSubstr("bad.yaml:5: unknown key 'populaton'; known keys: population, "),
+            HasSubstr("bad.yaml:6: repeated key 'min_lead'"),
+            HasSubstr("bad.yaml:7: unknown key 'judge'; known keys: plugins, method, bids, profile, seed, threads, "
+                      "genetic, pipeline, prepare, refine, evaluator, verdict, fuse")));
   write_text(folder / "bad.yaml", "method: magic\n");
   EXPECT_THAT(refusal(1, "check-config bad.yaml"),
               HasSubstr("bad.yaml:1: method = 'magic' is not known; known: genetic"));
@@ -726,7 +789,8 @@ TEST(SerialMerge, GoesRoundAgainOverMapsThatDidNotFitAtFirst) {
                                            columns_of(whole, 2 * third, whole.geometry.width - 2 * third),
                                            columns_of(whole, third / 2, 2 * third)};
   const auto method = all_methods().entries().front().profiles.front().config()->make();
-  const SerialMerge merge = merge_serially({maps, {}, *method, {}, {}}, {.seed = 1, .num_threads = 2, .stop = {}});
+  const OneMethod methods(*method, "");
+  const SerialMerge merge = merge_serially({maps, {}, methods, {}, {}}, {.seed = 1, .num_threads = 2, .stop = {}});
   ASSERT_EQ(merge.merged.size(), 3U);
   EXPECT_TRUE(merge.left_out.empty());
   std::vector<std::size_t> tried;
@@ -752,7 +816,8 @@ TEST(SerialMerge, StoppedAtOnceSaysSo) {
   const auto method = all_methods().entries().front().profiles.front().config()->make();
   const StopToken stop;
   stop.cancel();
-  const SerialMerge merge = merge_serially({maps, {}, *method, {}, {}}, {.seed = 1, .num_threads = 1, .stop = stop});
+  const OneMethod methods(*method, "");
+  const SerialMerge merge = merge_serially({maps, {}, methods, {}, {}}, {.seed = 1, .num_threads = 1, .stop = stop});
   EXPECT_TRUE(merge.stopped);
   EXPECT_TRUE(merge.merged.empty());
   EXPECT_TRUE(merge.attempts.empty());
