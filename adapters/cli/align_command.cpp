@@ -53,6 +53,9 @@ int run_align(const AlignArguments& arguments, const MethodRegistry& methods, st
     answer["prior"] = prior_json(prior);
     answer.update(configuration_json(configuration));
     answer["seconds"] = seconds_json(load.count(), alignment.seconds);
+    for (const Attempt& one : alignment.attempts) {
+      answer["seconds"]["attempts"].push_back(one.seconds);
+    }
     out << json_text(answer);
   } else {
     out << alignment_text(alignment, load.count()) << (arguments.explain ? choice_text(alignment) : "");

@@ -35,11 +35,8 @@ Json figures_json(const Figures& figures, const Verdict& verdict, const RandomLe
 Json attempts_json(const std::vector<Attempt>& attempts) {
   Json json = Json::array();
   for (const Attempt& one : attempts) {
-    json.push_back({{"method", one.method},
-                    {"why", one.why},
-                    {"status", status_of(one.outcome)},
-                    {"confidence", one.confidence},
-                    {"seconds", one.seconds}});
+    json.push_back(
+        {{"method", one.method}, {"why", one.why}, {"status", status_of(one.outcome)}, {"confidence", one.confidence}});
   }
   return json;
 }

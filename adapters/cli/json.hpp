@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json covariance_json(const std::optional<PoseCovariance>& covariance);
 /// All figures, with what the verdict and the random level add to them.
 [[nodiscard]] Json figures_json(const Figures& figures, const Verdict& verdict, const RandomLevel& random_level);
-/// method, why, status, confidence, seconds of each.
+/// method, why, status, confidence of each.
 [[nodiscard]] Json attempts_json(const std::vector<Attempt>& attempts);
 /// status, transform, covariance, confidence, reasons, hypotheses, figures, attempts, choice.
 [[nodiscard]] Json alignment_json(const Alignment& alignment);

@@ -108,8 +108,7 @@ bool is_learned_from(const Row& row) {
 BidInputs inputs_of(const Row& row) {
   std::optional<PosePrior> prior;
   if (std::isfinite(row.window_m) && std::isfinite(row.window_deg)) {
-    prior = PosePrior{
-        .target_from_source = {}, .radius_m = row.window_m, .angle_rad = radians(row.window_deg)};
+    prior = PosePrior{.target_from_source = {}, .radius_m = row.window_m, .angle_rad = radians(row.window_deg)};
   }
   return {row.target, row.source, prior};
 }

@@ -38,9 +38,7 @@ double quantile(std::vector<double> values, double share) {
   return values.empty() ? 0 : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
 }
 
-std::string key_of(const Row& row) {
-  return row.pair + "\n" + row.window + "\n" + std::to_string(row.seed);
-}
+std::string key_of(const Row& row) { return row.pair + "\n" + row.window + "\n" + std::to_string(row.seed); }
 
 bool is_counted(const Row& row) {
   return row.robots == 2 && row.profile == "default" && row.options.empty() && row.truth != "unknown";
@@ -99,7 +97,8 @@ std::string comparison_table(const std::vector<Row>& rows) {
     }
   }
   sets.emplace_back("all");
-  std::string text = "| set | method | pairs | right | wrong | seconds median | 95 % |\n|---|---|---|---|---|---|---|\n";
+  std::string text =
+      "| set | method | pairs | right | wrong | seconds median | 95 % |\n|---|---|---|---|---|---|---|\n";
   for (const std::string& set : sets) {
     for (const std::string& column : columns) {
       const Tally& t = tallies[set][column];

@@ -17,8 +17,7 @@ struct Scaled {
   explicit Scaled(const Eigen::MatrixXd& raw)
       : inputs(Eigen::MatrixXd::Ones(raw.rows(), raw.cols() + 1)),
         mean(raw.colwise().mean()),
-        deviation((raw.rowwise() - mean).colwise().norm().cwiseMax(1e-9) /
-                  std::sqrt(static_cast<double>(raw.rows()))) {
+        deviation((raw.rowwise() - mean).colwise().norm().cwiseMax(1e-9) / std::sqrt(static_cast<double>(raw.rows()))) {
     inputs.rightCols(raw.cols()) = (raw.rowwise() - mean).array().rowwise() / deviation.array();
   }
 

@@ -33,7 +33,8 @@ TEST(BidFile, ReadsWhatItWrote) {
   const BidBook book = parse_bids(kGood, "bids.yaml");
   ASSERT_EQ(book.methods.size(), 1U);
   EXPECT_EQ(book.methods.front().method, "toy");
-  EXPECT_EQ(book.methods.front().success.weights, (std::vector<std::pair<std::string, double>>{{"bias", 1.5}, {"clutter", -0.25}}));
+  EXPECT_EQ(book.methods.front().success.weights,
+            (std::vector<std::pair<std::string, double>>{{"bias", 1.5}, {"clutter", -0.25}}));
   EXPECT_EQ(book.second_chance.weights.size(), 2U);
   EXPECT_EQ(to_yaml(book), kGood);
   EXPECT_EQ(to_yaml(parse_bids(to_yaml(BidBook{}), "empty")), to_yaml(BidBook{}));

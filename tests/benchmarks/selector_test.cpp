@@ -113,18 +113,20 @@ TEST(Learn, LeavesOutWhatTellsNothingOfAMethod) {
 }
 
 TEST(Tables, CompareEveryMethodWithTheBestInHindsight) {
-  std::vector<Row> rows = {run_of("walls", 1, "right", 0.1),  run_of("posts", 1, "right", 0.3),
-                           run_of("auto", 1, "right", 0.11),  run_of("walls", 2, "missed", 0.1),
-                           run_of("posts", 2, "right", 0.5),  run_of("auto", 2, "right", 0.6),
+  std::vector<Row> rows = {run_of("walls", 1, "right", 0.1),   run_of("posts", 1, "right", 0.3),
+                           run_of("auto", 1, "right", 0.11),   run_of("walls", 2, "missed", 0.1),
+                           run_of("posts", 2, "right", 0.5),   run_of("auto", 2, "right", 0.6),
                            run_of("walls", 3, "refused", 0.1), run_of("posts", 3, "false", 0.2),
-                           run_of("auto", 3, "refused", 0.1), run_of("walls", 4, "right", 0.1)};
+                           run_of("auto", 3, "refused", 0.1),  run_of("walls", 4, "right", 0.1)};
   rows[5].tried = "walls posts";
   const std::string table = comparison_table(rows);
   // The fourth pair was run by one method alone: it is not counted.
-  EXPECT_THAT(table, AllOf(HasSubstr("| toy | walls | 3 | 1 | 0 | 0.100 |"), HasSubstr("| toy | posts | 3 | 2 | 1 | 0.300 |"),
-                           HasSubstr("| toy | auto | 3 | 2 | 0 | 0.110 |"),
-                           HasSubstr("| toy | best in hindsight | 3 | 2 | 0 | 0.100 |"), HasSubstr("| all | auto | 3 |")));
-  EXPECT_THAT(choice_table(rows), AllOf(HasSubstr("| auto | 1 | 0 | 1 | 0 | 0 |"), HasSubstr("| walls posts | 1 | 0 | 0 | 0 | 0 |")));
+  EXPECT_THAT(table,
+              AllOf(HasSubstr("| toy | walls | 3 | 1 | 0 | 0.100 |"), HasSubstr("| toy | posts | 3 | 2 | 1 | 0.300 |"),
+                    HasSubstr("| toy | auto | 3 | 2 | 0 | 0.110 |"),
+                    HasSubstr("| toy | best in hindsight | 3 | 2 | 0 | 0.100 |"), HasSubstr("| all | auto | 3 |")));
+  EXPECT_THAT(choice_table(rows),
+              AllOf(HasSubstr("| auto | 1 | 0 | 1 | 0 | 0 |"), HasSubstr("| walls posts | 1 | 0 | 0 | 0 | 0 |")));
 }
 
 }  // namespace

@@ -1,10 +1,9 @@
-#include "statistics/logistic.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "gridmerge/base/random.hpp"
+#include "statistics/logistic.hpp"
 
 namespace gridmerge::statistics {
 namespace {

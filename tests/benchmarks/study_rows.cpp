@@ -56,7 +56,7 @@ std::string in_words(const Row& row) {
 }
 
 Row timeless(Row row) {
-  row.prepare_s = row.propose_s = row.refine_s = row.judge_s = row.align_s = row.yardstick_s = 0;
+  row.prepare_s = row.choose_s = row.propose_s = row.refine_s = row.judge_s = row.align_s = row.yardstick_s = 0;
   row.date.clear();
   return row;
 }

@@ -222,6 +222,8 @@ class Search {
     alignment_.random_level = background_.random;
     Background background = background_;
     background.surveyed = background.surveyed && background.decoy;
+    background.source_centre = request_.source.centre_in_map();
+    background.source_radius_m = request_.source.radius_m();
     alignment_.verdict = judge(listed, background, options_.verdict);
     alignment_.outcome = listed.empty() && alignment_.stopped ? Outcome::kStopped : alignment_.verdict.outcome;
     alignment_.confidence = alignment_.verdict.confidence;
@@ -315,7 +317,7 @@ Alignment align_prepared(const AlignRequest& request, const Chooser& methods, co
   Alignment alignment = search ? search->judged() : declined(objection);
   alignment.attempts = std::move(tried);
   alignment.story = choice->story();
-  alignment.seconds.choose = choosing_s;
+  alignment.seconds.choose = alignment.story.empty() ? 0 : choosing_s;
   alignment.seconds.align = choosing_s + alignment.seconds.propose + alignment.seconds.refine + alignment.seconds.judge;
   return alignment;
 }

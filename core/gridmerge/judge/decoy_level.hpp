@@ -1,9 +1,9 @@
 #pragma once
 /// How well two maps fit anywhere, held against a decoy: the source in a mirror.
 ///
-/// A search over all poses finds something that fits in any two buildings. How well, depends on the maps: on their size,
-/// their walls, how self-similar they are. The mirror image of the source has all of that and is not in the target, so
-/// what the same search finds for it is what a wrong answer looks like on these very maps (a decoy, as in
+/// A search over all poses finds something that fits in any two buildings. How well, depends on the maps: on their
+/// size, their walls, how self-similar they are. The mirror image of the source has all of that and is not in the
+/// target, so what the same search finds for it is what a wrong answer looks like on these very maps (a decoy, as in
 /// target-decoy searches: Elias, Gygi, Nature Methods 4, 2007).
 #include <algorithm>
 #include <cmath>

@@ -7,10 +7,10 @@
 namespace gridmerge {
 namespace {
 
-constexpr double kPatch = 4;               // [m] side of a patch
-constexpr double kReach = 0.6;             // [m] how far a patch may shift
-constexpr double kStep = 0.1;              // [m]
-constexpr double kLeastWalls = 1;          // [m] of a patch that counts
+constexpr double kPatch = 4;                // [m] side of a patch
+constexpr double kReach = 0.6;              // [m] how far a patch may shift
+constexpr double kStep = 0.1;               // [m]
+constexpr double kLeastWalls = 1;           // [m] of a patch that counts
 constexpr std::size_t kMostInAPatch = 120;  // walls that are looked at
 
 struct Shift {
@@ -40,7 +40,7 @@ using PatchIndex = std::pair<int, int>;
 
 /// The walls of the moving map that fall on what the fixed one knows, by patch.
 std::map<PatchIndex, std::vector<const SidedWall*>> patches_of(const SidedMap& moving, const MapLevel& level,
-                                                              const ToCells& to) {
+                                                               const ToCells& to) {
   std::map<PatchIndex, std::vector<const SidedWall*>> patches;
   for (const SidedWall& wall : moving.walls) {
     const int column = to.column(wall.at);

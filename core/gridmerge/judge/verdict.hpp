@@ -42,11 +42,10 @@ struct VerdictOptions {
   double min_deviations = 1.5;
   double spotless_conflict_share = 0.01;
   double spotless_evidence_share = 0.5;
+  double weak_direction_m = 0.5;
   // When poses count as different answers.
   double distinct_m = 1.0;
   double distinct_deg = 6;
-  // What is said of the covariance.
-  double weak_direction_m = 0.5;
   // The confidence: what its figures weigh. Fitted by benchmarks/verdict; configs/learned/verdict.yaml says how.
   ConfidenceWeights weights = learned_weights();
 
@@ -82,6 +81,9 @@ struct Background {
   std::optional<DecoyLevel> decoy;  ///< none: nobody looked
   /// Nobody has overlooked a rival; false: never merged.
   bool surveyed = true;
+  /// The disc of the source's known cells, in its map frame: how well a pose is fixed is asked there.
+  Point2 source_centre{};
+  double source_radius_m = 0;
 };
 
 /// The index of the hypothesis other than the first that has the most evidence; ranked.size() where there is none.

@@ -39,10 +39,10 @@ std::vector<std::pair<std::string, double>> inputs_of(const SceneFeatures& targe
 }  // namespace
 
 BidInputs::BidInputs(const SceneFeatures& target, const SceneFeatures& source, const std::optional<PosePrior>& prior)
-    : named_(inputs_of(target, source,
-                       prior && prior->radius_m && prior->angle_rad
-                           ? tightness(*prior->radius_m, degrees(*prior->angle_rad))
-                           : 0)) {}
+    : named_(inputs_of(
+          target, source,
+          prior && prior->radius_m && prior->angle_rad ? tightness(*prior->radius_m, degrees(*prior->angle_rad)) : 0)) {
+}
 
 std::vector<FeatureText> BidInputs::texts() {
   return {{"bias", "", "always 1"},
@@ -69,8 +69,8 @@ double WeightedSum::of(const std::vector<std::pair<std::string, double>>& inputs
 std::vector<std::string> second_chance_inputs() { return {"bias", "log_odds", "ambiguous"}; }
 
 std::optional<Bid> bid_of(const BidBook& book, std::string_view method, const BidInputs& inputs) {
-  const auto model = std::find_if(book.methods.begin(), book.methods.end(),
-                                  [&](const BidModel& one) { return one.method == method; });
+  const auto model =
+      std::find_if(book.methods.begin(), book.methods.end(), [&](const BidModel& one) { return one.method == method; });
   if (model == book.methods.end()) {
     return std::nullopt;
   }

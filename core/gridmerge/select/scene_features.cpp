@@ -86,8 +86,7 @@ double second_peak(const PreparedMap& map) {
   double first = 0;
   double second = 0;
   for (const ScoredPose& peak : found.peaks) {
-    const bool itself =
-        norm(peak.pose.translation()) < kSamePlace && std::abs(peak.pose.theta_rad) < kPi / 4;
+    const bool itself = norm(peak.pose.translation()) < kSamePlace && std::abs(peak.pose.theta_rad) < kPi / 4;
     double& highest = itself ? first : second;
     highest = std::max(highest, peak.score);
   }
@@ -103,12 +102,8 @@ bool is_ternary(const PreparedMap& map) {
 }  // namespace
 
 std::vector<std::pair<std::string, double>> SceneFeatures::named() const {
-  return {{"straightness", straightness},
-          {"directions", directions},
-          {"occupied_cells", occupied_cells},
-          {"known_area_m2", known_area_m2},
-          {"clutter", clutter},
-          {"self_similarity", self_similarity},
+  return {{"straightness", straightness},   {"directions", directions}, {"occupied_cells", occupied_cells},
+          {"known_area_m2", known_area_m2}, {"clutter", clutter},       {"self_similarity", self_similarity},
           {"ternary", ternary ? 1 : 0}};
 }
 

@@ -104,7 +104,8 @@ class Bidding final : public Choice {
     const std::optional<double> left_s = stop_.seconds_left();
     const Standing* fastest = nullptr;
     for (const Standing& one : standings_) {
-      const bool done = std::any_of(tried.begin(), tried.end(), [&](const Attempt& a) { return a.method == one.method; });
+      const bool done =
+          std::any_of(tried.begin(), tried.end(), [&](const Attempt& a) { return a.method == one.method; });
       if (!one.bid || done) {
         continue;
       }

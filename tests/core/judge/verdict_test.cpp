@@ -303,6 +303,8 @@ TEST(Confidence, IsHighForAClearPoseAndLowForADoubtfulOne) {
   doubtful.lead = 0.2;
   doubtful.log_lead = 2.5;
   doubtful.small_conflict = 0.4;
+  doubtful.near_conflict = 0.08;
+  doubtful.both_far_conflict = 0.04;
   EXPECT_LT(confidence_of(doubtful, weights), 0.5);
 }
 
@@ -350,6 +352,25 @@ TEST(Verdict, TellsInWordsWhichWayTheWallsDoNotFixThePose) {
               Contains(AllOf(HasSubstr("along 30 deg"), HasSubstr("2.00 m"))));
   corridor.target_from_source.covariance = 1e-4 * PoseCovariance::Identity();
   EXPECT_THAT(judged({corridor}, kChance, always_confident()).reasons, Not(Contains(HasSubstr("hardly fix"))));
+}
+
+// What a covariance says of the translation depends on where the origins lie: the same heading's doubt counts metres
+// there.
+TEST(Verdict, AsksHowWellAPoseIsFixedWhereTheSourceLiesAndNotAtItsOrigin) {
+  const PoseCovariance at_centre = Eigen::Vector3d(4e-4, 1e-4, 1e-6).asDiagonal();
+  for (const Point2 centre : {Point2{3, -2}, Point2{4000, 9000}}) {
+    Hypothesis one = hypothesis(80, 1);
+    one.target_from_source.pose = {1, 2, 0.7};
+    const Point2 arm = one.target_from_source.pose * centre - one.target_from_source.pose.translation();
+    Eigen::Matrix3d origin_by_centre = Eigen::Matrix3d::Identity();
+    origin_by_centre(0, 2) = arm.y_m;
+    origin_by_centre(1, 2) = -arm.x_m;
+    one.target_from_source.covariance = origin_by_centre * at_centre * origin_by_centre.transpose();
+    const Background background{.random = kChance, .source_centre = centre, .source_radius_m = 20};
+    const Verdict v = judge({one}, background, always_confident());
+    EXPECT_EQ(v.outcome, Outcome::kMerged);
+    EXPECT_NEAR(v.figures.log_weak, std::log(std::sqrt(4e-4 + 1e-6 * 20 * 20 / 2)), 1e-6);
+  }
 }
 
 TEST(Verdict, OutcomesHaveStableNames) {

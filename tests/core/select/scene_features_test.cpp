@@ -115,7 +115,8 @@ TEST(SceneFeatures, SeeWhetherCellsSayHowLikely) {
 }
 
 TEST(SceneFeatures, AreZeroWithoutWalls) {
-  const SceneFeatures nothing = features_of(unknown_grid({.width = 30, .height = 20, .resolution_m = kCell, .map_from_grid = {}}));
+  const SceneFeatures nothing =
+      features_of(unknown_grid({.width = 30, .height = 20, .resolution_m = kCell, .map_from_grid = {}}));
   EXPECT_EQ(nothing.known_area_m2, 0);
   EXPECT_EQ(nothing.straightness, 0);
   const SceneFeatures open = features_of(free_field(5, 5));

@@ -127,9 +127,9 @@ TEST_F(SelectorTest, TriesNoMoreThanItMay) {
 
 TEST_F(SelectorTest, AnObjectionAndAMissingBidKeepAMethodOut) {
   fast_.objects = "the maps are not to its liking";
-  const Selector without(
-      {{"fast", &fast_}, {"bad", &bad_}, {"new", &slow_}},
-      {.methods = {model("fast", 3, -2), model("bad", -1, -4)}, .second_chance = {{{"bias", 3}}}}, {});
+  const Selector without({{"fast", &fast_}, {"bad", &bad_}, {"new", &slow_}},
+                         {.methods = {model("fast", 3, -2), model("bad", -1, -4)}, .second_chance = {{{"bias", 3}}}},
+                         {});
   const Alignment alignment = run(without);
   EXPECT_THAT(tried(alignment), ElementsAre("bad"));
   EXPECT_THAT(alignment.story, Contains("fast objects: the maps are not to its liking"));
@@ -183,10 +183,16 @@ TEST(Selector, RefusesABookThatWeighsWhatIsNoInput) {
   const Toy toy;
   const BidBook book{.methods = {{.method = "toy", .success = {{{"colour", 1}}}, .log_seconds = {}}},
                      .second_chance = {}};
-  EXPECT_THAT([&] { (void)Selector({{"toy", &toy}}, book, {}); },
-              ThrowsMessage<std::invalid_argument>(testing::AllOf(HasSubstr("colour"), HasSubstr("straightness"))));
-  EXPECT_THAT([&] { (void)Selector({{"toy", &toy}}, {}, {.success_slack = 2}); },
-              ThrowsMessage<std::invalid_argument>(HasSubstr("success_slack")));
+  EXPECT_THAT(
+      [&] {
+        (void)Selector({{"toy", &toy}}, book, {});
+      },
+      ThrowsMessage<std::invalid_argument>(testing::AllOf(HasSubstr("colour"), HasSubstr("straightness"))));
+  EXPECT_THAT(
+      [&] {
+        (void)Selector({{"toy", &toy}}, {}, {.success_slack = 2});
+      },
+      ThrowsMessage<std::invalid_argument>(HasSubstr("success_slack")));
 }
 
 TEST(OneMethod, IsTriedOnce) {
