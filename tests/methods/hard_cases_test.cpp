@@ -32,8 +32,7 @@ class HardCases : public testing::TestWithParam<std::string> {
 OccupancyGrid bare_room(int side_cells, int sides) {
   constexpr int kBorder = 10;
   const int size = side_cells + 2 * kBorder;
-  OccupancyGrid grid =
-      unknown_grid({.width = size, .height = size, .resolution_m = 0.05, .map_from_grid = {3, -2, 0}});
+  OccupancyGrid grid = unknown_grid({.width = size, .height = size, .resolution_m = 0.05, .map_from_grid = {3, -2, 0}});
   for (int i = 0; i < side_cells; ++i) {
     for (int k = 0; k < side_cells; ++k) {
       const bool wall = (i < 2 && sides > 0) || (i >= side_cells - 2 && sides > 1) || (k < 2 && sides > 2) ||

@@ -223,7 +223,6 @@ class Search {
     Background background = background_;
     background.surveyed = background.surveyed && background.decoy;
     background.source_centre = request_.source.centre_in_map();
-    background.source_radius_m = request_.source.radius_m();
     alignment_.verdict = judge(listed, background, options_.verdict);
     alignment_.outcome = listed.empty() && alignment_.stopped ? Outcome::kStopped : alignment_.verdict.outcome;
     alignment_.confidence = alignment_.verdict.confidence;

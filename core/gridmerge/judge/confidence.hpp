@@ -26,7 +26,7 @@ struct ConfidenceFigures {
   double little_share = 0;        ///< what that share lacks of 0.4
   double mutual_information = 0;  ///< [bit]
   // How well the walls fix the pose.
-  double log_weak = 0;        ///< ln of the source's points' standard deviation, in the direction fixed least [m]
+  double log_weak = 0;        ///< ln of the pose's standard deviation at the source, in the direction fixed least [m]
   double weak_direction = 0;  ///< how far log_weak exceeds -3 (5 cm)
 };
 

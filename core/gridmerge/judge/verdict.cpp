@@ -26,9 +26,10 @@ struct WeakDirection {
   double heading_deg = 0;  ///< 0 .. 180
 };
 
-/// At the source's points, not at its frame's origin, which may lie anywhere: the covariance is carried to the centre,
-/// and the heading's share added as it is on the average over the disc of the known cells (root mean square).
+/// At the source, not at its frame's origin, which may lie anywhere: the covariance is carried to the centre of its
+/// known cells, and the heading's share added as it is 20 m off that.
 std::optional<WeakDirection> weak_direction(const PoseEstimate& estimate, const Background& background) {
+  constexpr double kLever_m = 20;
   if (!estimate.covariance) {
     return std::nullopt;
   }
@@ -42,7 +43,7 @@ std::optional<WeakDirection> weak_direction(const PoseEstimate& estimate, const 
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(at_centre);
   const Eigen::Vector2d way = solver.eigenvectors().col(1);
   const double heading = degrees(std::atan2(way(1), way(0)));
-  const double turned = (*estimate.covariance)(2, 2) * background.source_radius_m * background.source_radius_m / 2;
+  const double turned = (*estimate.covariance)(2, 2) * kLever_m * kLever_m;
   return WeakDirection{std::sqrt(std::max(0.0, solver.eigenvalues()(1)) + std::max(0.0, turned)),
                        heading < 0 ? heading + 180 : heading};
 }
@@ -209,9 +210,11 @@ void VerdictOptions::describe(OptionList& list) {
            {"m", "Poses farther apart than this, at the source's centre, are different answers.",
             "Raise it for maps so bent that one pose cannot be told from the next."})
       .add("distinct_deg", distinct_deg, 0.1, 180, {"deg", "Poses turned apart by more are different answers.", ""})
-      .add("weak_direction_m", weak_direction_m, 0, 100,
-           {"m", "Greatest standard deviation of the source's points in the direction that the walls fix least.",
-            "A corridor, or one wall, leaves it sliding; raise it where that does not matter."})
+      .add(
+          "weak_direction_m", weak_direction_m, 0, 100,
+          {"m",
+           "Greatest standard deviation of the refined pose, at the source, in the direction that the walls fix least.",
+           "A corridor, or one wall, leaves it sliding; raise it where that does not matter."})
       .add("bias", weights.bias, -1e3, 1e3, {"", "Confidence: constant term of the logistic function.", ""});
   for (const ConfidenceTerm& term : confidence_terms()) {
     list.add("per_" + std::string(term.name), weights.per.*term.figure, -1e3, 1e3,

@@ -81,9 +81,8 @@ struct Background {
   std::optional<DecoyLevel> decoy;  ///< none: nobody looked
   /// Nobody has overlooked a rival; false: never merged.
   bool surveyed = true;
-  /// The disc of the source's known cells, in its map frame: how well a pose is fixed is asked there.
+  /// Of the source's known cells, in its map frame: how well a pose is fixed is asked there.
   Point2 source_centre{};
-  double source_radius_m = 0;
 };
 
 /// The index of the hypothesis other than the first that has the most evidence; ranked.size() where there is none.
