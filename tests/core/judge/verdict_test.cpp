@@ -346,6 +346,7 @@ TEST(Verdict, TellsInWordsWhichWayTheWallsDoNotFixThePose) {
   const double along = radians(30);
   const Eigen::Vector2d way(std::cos(along), std::sin(along));
   PoseCovariance covariance = 1e-4 * PoseCovariance::Identity();
+  covariance(2, 2) = 1e-8;
   covariance.topLeftCorner<2, 2>() += 4 * way * way.transpose();
   corridor.target_from_source.covariance = covariance;
   EXPECT_THAT(judged({corridor}, kChance, always_confident()).reasons,
