@@ -367,7 +367,7 @@ TEST(Verdict, AsksHowWellAPoseIsFixedWhereTheSourceLiesAndNotAtItsOrigin) {
     origin_by_centre(0, 2) = arm.y_m;
     origin_by_centre(1, 2) = -arm.x_m;
     one.target_from_source.covariance = origin_by_centre * at_centre * origin_by_centre.transpose();
-    const Background background{.random = kChance, .source_centre = centre};
+    const Background background{.random = kChance, .decoy = {}, .source_centre = centre};
     const Verdict v = judge({one}, background, always_confident());
     EXPECT_EQ(v.outcome, Outcome::kMerged);
     EXPECT_NEAR(v.figures.log_weak, std::log(std::sqrt(4e-4 + 1e-6 * 20 * 20)), 1e-6);
