@@ -1,15 +1,8 @@
 #include "cli/text.hpp"
 
 #include <cmath>
-#include <cstdio>
 
 namespace gridmerge::cli {
-
-std::string fixed(double value, int digits) {
-  char text[400];  // the longest double has 309 digits before the point
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
-}
 
 std::string pose_text(const Pose2& pose) {
   return "x " + fixed(pose.x_m, 3) + " m, y " + fixed(pose.y_m, 3) + " m, theta " + fixed(pose.theta_rad, 4) +

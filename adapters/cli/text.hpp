@@ -9,8 +9,6 @@
 
 namespace gridmerge::cli {
 
-/// With so many digits behind the point.
-[[nodiscard]] std::string fixed(double value, int digits);
 /// "x 1.234 m, y -0.500 m, theta 1.5708 rad (90.00 deg)"
 [[nodiscard]] std::string pose_text(const Pose2& pose);
 /// "0.012 m, 0.010 m, 0.05 deg" along x, y and theta; "not known".

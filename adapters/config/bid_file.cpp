@@ -16,11 +16,7 @@ using Kind = YamlEntry::Kind;
 
 class BidReader {
  public:
-  explicit BidReader(const std::string& file) : problems_(file) {
-    for (const FeatureText& input : BidInputs::texts()) {
-      inputs_.push_back(input.name);
-    }
-  }
+  explicit BidReader(const std::string& file) : problems_(file) {}
 
   BidBook read(const std::vector<YamlEntry>& entries) {
     BidBook book;
@@ -29,7 +25,7 @@ class BidReader {
       if (entry.key == "methods") {
         read_methods(entry, book);
       } else if (entry.key == "second_chance") {
-        book.second_chance = weights(entry, second_chance_inputs());
+        book.second_chance = weights(entry, second_chance_names());
       } else {
         problems_.add_unknown_key(entry, {"methods", "second_chance"});
       }
@@ -97,7 +93,7 @@ class BidReader {
   }
 
   FileProblems problems_;
-  std::vector<std::string> inputs_;
+  std::vector<std::string> inputs_ = BidInputs::names();
 };
 
 std::string weights_yaml(const std::string& key, const WeightedSum& sum, const std::string& indent) {

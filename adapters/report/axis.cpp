@@ -1,9 +1,9 @@
 #include "report/axis.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
+
+#include "gridmerge/base/number_text.hpp"
 
 namespace gridmerge {
 namespace {
@@ -47,12 +47,6 @@ int shared_exponent(double low, double high) {
   return reads_well ? 0 : 3 * static_cast<int>(std::floor(std::log10(largest) / 3));
 }
 
-std::string fixed_text(double value, int digits) {
-  std::array<char, 400> text{};  // the longest double has 309 digits before the point
-  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-  return text.data();
-}
-
 }  // namespace
 
 Ticks round_ticks(double low, double high, int at_most, bool are_degrees) {
@@ -64,7 +58,7 @@ Ticks round_ticks(double low, double high, int at_most, bool are_degrees) {
   ticks.at = multiples(low, high, step);
   for (double& at : ticks.at) {
     at = at == 0 ? 0 : at;  // never -0
-    ticks.text.push_back(fixed_text(at / factor, digits));
+    ticks.text.push_back(fixed(at / factor, digits));
   }
   ticks.factor = exponent == 0 ? "" : "1e" + std::to_string(exponent);
   return ticks;

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 
@@ -55,26 +56,17 @@ WeightedSum logistic_sum(const Sample& sample, const std::vector<std::string>& n
   return weighted(statistics::fit_logistic(sample.matrix(names.size()), sample.values(), even, ridge), names);
 }
 
-std::vector<double> without_bias(const BidInputs& inputs) {
+// The regressions have a bias of their own.
+std::vector<double> without_bias(const NamedValues& inputs) {
   std::vector<double> values;
-  for (std::size_t i = 1; i < inputs.named().size(); ++i) {
-    values.push_back(inputs.named()[i].second);
-  }
+  std::transform(inputs.begin() + 1, inputs.end(), std::back_inserter(values),
+                 [](const auto& input) { return input.second; });
   return values;
 }
 
-std::vector<std::string> input_names() {
-  std::vector<std::string> names;
-  for (const FeatureText& text : BidInputs::texts()) {
-    names.push_back(text.name);
-  }
+std::vector<std::string> without_bias(std::vector<std::string> names) {
   names.erase(names.begin());
   return names;
-}
-
-double log_odds(double chance) {
-  const double p = std::clamp(chance, 1e-4, 1 - 1e-4);
-  return std::log(p / (1 - p));
 }
 
 WeightedSum learn_second_chance(const std::vector<Row>& rows, double ridge) {
@@ -89,13 +81,13 @@ WeightedSum learn_second_chance(const std::vector<Row>& rows, double ridge) {
     for (const Row* first : runs) {
       for (const Row* second : runs) {
         if (first->method != second->method && first->status != "merged") {
-          sample.add({log_odds(first->confidence), first->status == "ambiguous" ? 1.0 : 0.0},
+          sample.add(without_bias(second_chance_inputs(first->confidence, first->status == "ambiguous")),
                      second->result == "right" ? 1 : 0);
         }
       }
     }
   }
-  return logistic_sum(sample, {"log_odds", "ambiguous"}, ridge);
+  return logistic_sum(sample, without_bias(second_chance_names()), ridge);
 }
 
 }  // namespace
@@ -124,13 +116,13 @@ BidBook learn(const std::vector<Row>& rows, double ridge) {
     if (std::find(methods.begin(), methods.end(), row.method) == methods.end()) {
       methods.push_back(row.method);
     }
-    const std::vector<double> inputs = without_bias(inputs_of(row));
+    const std::vector<double> inputs = without_bias(inputs_of(row).named());
     log_seconds[row.method].add(inputs, std::log(row.align_s));
     if (row.truth == "same") {
       success[row.method].add(inputs, row.result == "right" ? 1 : 0);
     }
   }
-  const std::vector<std::string> names = input_names();
+  const std::vector<std::string> names = without_bias(BidInputs::names());
   BidBook book;
   for (const std::string& method : methods) {
     const Sample& times = log_seconds[method];

@@ -1,9 +1,10 @@
 #include "selector/tables.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <set>
+
+#include "gridmerge/base/number_text.hpp"
 
 namespace gridmerge::selector_study {
 namespace {
@@ -26,12 +27,6 @@ struct Tally {
     seconds.push_back(align_s);
   }
 };
-
-std::string fixed(double value, int digits) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
-}
 
 double quantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());

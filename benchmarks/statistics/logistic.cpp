@@ -43,8 +43,6 @@ struct Scaled {
 
 }  // namespace
 
-double logistic(double sum) { return 1 / (1 + std::exp(-sum)); }
-
 Weights fit_logistic(const Eigen::MatrixXd& inputs, const Eigen::VectorXd& labels, const Eigen::VectorXd& importance,
                      double ridge) {
   constexpr int kIterations = 60;
@@ -90,20 +88,29 @@ Weights fit_linear(const Eigen::MatrixXd& inputs, const Eigen::VectorXd& values,
   return scaled.unscaled(normal.ldlt().solve(scaled.inputs.transpose() * values));
 }
 
-double expected_calibration_error(const Eigen::VectorXd& confidence, const Eigen::VectorXd& labels, int bins) {
-  struct Bin {
-    double confidence = 0;
-    double right = 0;
-  };
-  std::vector<Bin> all(static_cast<std::size_t>(bins));
-  for (Eigen::Index i = 0; i < confidence.size(); ++i) {
-    Bin& bin = all[static_cast<std::size_t>(std::clamp(static_cast<int>(confidence(i) * bins), 0, bins - 1))];
-    bin.confidence += confidence(i);
-    bin.right += labels(i);
+std::vector<ReliabilityBin> reliability(const Eigen::VectorXd& confidence, const Eigen::VectorXd& labels, int bins) {
+  std::vector<ReliabilityBin> all;
+  for (int bin = 0; bin < bins; ++bin) {
+    all.push_back({.low = static_cast<double>(bin) / bins, .high = (bin + 1.0) / bins});
   }
+  for (Eigen::Index i = 0; i < confidence.size(); ++i) {
+    ReliabilityBin& bin =
+        all[static_cast<std::size_t>(std::clamp(static_cast<int>(confidence(i) * bins), 0, bins - 1))];
+    ++bin.rows;
+    bin.mean_confidence += confidence(i);
+    bin.share_right += labels(i);
+  }
+  for (ReliabilityBin& bin : all) {
+    bin.mean_confidence /= std::max(1, bin.rows);
+    bin.share_right /= std::max(1, bin.rows);
+  }
+  return all;
+}
+
+double expected_calibration_error(const Eigen::VectorXd& confidence, const Eigen::VectorXd& labels, int bins) {
   double off = 0;
-  for (const Bin& bin : all) {
-    off += std::abs(bin.confidence - bin.right);
+  for (const ReliabilityBin& bin : reliability(confidence, labels, bins)) {
+    off += bin.rows * std::abs(bin.mean_confidence - bin.share_right);
   }
   return confidence.size() > 0 ? off / static_cast<double>(confidence.size()) : 0;
 }

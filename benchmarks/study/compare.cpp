@@ -85,7 +85,7 @@ Change change_of(const std::string& method, const std::string& set, const Group&
 }
 
 std::string percent(double slowdown) {
-  return std::isfinite(slowdown) ? (slowdown >= 1 ? "+" : "") + cli::fixed(100 * (slowdown - 1), 1) + " %" : "-";
+  return std::isfinite(slowdown) ? (slowdown >= 1 ? "+" : "") + fixed(100 * (slowdown - 1), 1) + " %" : "-";
 }
 
 std::vector<std::string> reasons(const Change& change, const CompareOptions& options) {
@@ -102,8 +102,7 @@ std::vector<std::string> reasons(const Change& change, const CompareOptions& opt
     why.push_back("wrong and false rose from " + from_to(bad_before, bad_after));
   }
   if (change.slowdown > 1 + options.slower) {
-    why.push_back("time rose by " + percent(change.slowdown) + ", more than " + cli::fixed(100 * options.slower, 0) +
-                  " %");
+    why.push_back("time rose by " + percent(change.slowdown) + ", more than " + fixed(100 * options.slower, 0) + " %");
   }
   return why;
 }
@@ -132,7 +131,7 @@ std::vector<std::string> line_of(const Change& change) {
   const auto both = [](std::int64_t before, std::int64_t after) {
     return before == after ? std::to_string(before) : std::to_string(before) + " -> " + std::to_string(after);
   };
-  const auto number = [](double value) { return std::isfinite(value) ? cli::fixed(value, 2) : "-"; };
+  const auto number = [](double value) { return std::isfinite(value) ? fixed(value, 2) : "-"; };
   return {change.set.empty() ? change.method : change.set + ": " + change.method,
           std::to_string(change.after.runs),
           both(change.before.right, change.after.right),

@@ -6,17 +6,6 @@
 
 namespace gridmerge::study {
 
-template <typename AnyFeatures, typename Visit>
-void for_each_feature(const std::string& map, AnyFeatures& features, Visit&& visit) {
-  visit((map + "straightness").c_str(), features.straightness);
-  visit((map + "directions").c_str(), features.directions);
-  visit((map + "occupied_cells").c_str(), features.occupied_cells);
-  visit((map + "known_area_m2").c_str(), features.known_area_m2);
-  visit((map + "clutter").c_str(), features.clutter);
-  visit((map + "self_similarity").c_str(), features.self_similarity);
-  visit((map + "ternary").c_str(), features.ternary);
-}
-
 /// Calls visit(name, field) for every field but the figures, in the order of Row.
 /// @param row  a Row, const or not; the fields are int, int64, uint64, bool, double and std::string
 template <typename AnyRow, typename Visit>
@@ -61,8 +50,11 @@ void for_each_field(AnyRow& row, Visit&& visit) {
   visit("target_walls", row.target_walls);
   visit("source_walls", row.source_walls);
   visit("tried", row.tried);
-  for_each_feature("target_", row.target, visit);
-  for_each_feature("source_", row.source, visit);
+  const auto visit_as = [&](const std::string& map) {
+    return [&visit, map](const char* name, auto& field) { visit((map + name).c_str(), field); };
+  };
+  for_each_feature(row.target, visit_as("target_"));
+  for_each_feature(row.source, visit_as("source_"));
   visit("prepare_s", row.prepare_s);
   visit("choose_s", row.choose_s);
   visit("propose_s", row.propose_s);

@@ -3,10 +3,9 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
-#include <iomanip>
 #include <iostream>
-#include <sstream>
 
+#include "gridmerge/base/number_text.hpp"
 #include "gridmerge/base/parallel.hpp"
 #include "methods/genetic/hit_fitness.hpp"
 #include "thesis/experiment.hpp"
@@ -15,12 +14,6 @@ namespace {
 
 using namespace gridmerge;
 using namespace gridmerge::thesis;
-
-std::string fixed(double value, int digits) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  return text.str();
-}
 
 std::string count(int part, std::size_t of) { return std::to_string(part) + "/" + std::to_string(of); }
 

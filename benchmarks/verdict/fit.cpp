@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "gridmerge/base/random.hpp"
-#include "statistics/logistic.hpp"
 
 namespace gridmerge::verdict_study {
 namespace {
@@ -112,23 +111,9 @@ bool share_a_place(const std::string& first, const std::string& second) {
   return std::any_of(parts.begin(), parts.end(), [&](const std::string& part) { return others.contains(part); });
 }
 
-std::vector<ReliabilityBin> reliability(const std::vector<Row>& rows, const std::vector<double>& confidence, int bins) {
-  std::vector<ReliabilityBin> all;
-  for (int bin = 0; bin < bins; ++bin) {
-    all.push_back({.low = static_cast<double>(bin) / bins, .high = (bin + 1.0) / bins});
-  }
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    ReliabilityBin& bin =
-        all[static_cast<std::size_t>(std::clamp(static_cast<int>(confidence[i] * bins), 0, bins - 1))];
-    ++bin.rows;
-    bin.mean_confidence += confidence[i];
-    bin.share_right += rows[i].right ? 1 : 0;
-  }
-  for (ReliabilityBin& bin : all) {
-    bin.mean_confidence /= std::max(1, bin.rows);
-    bin.share_right /= std::max(1, bin.rows);
-  }
-  return all;
+std::vector<ReliabilityBin> reliability(const std::vector<Row>& rows, const std::vector<double>& confidence) {
+  const Told told(rows, confidence);
+  return statistics::reliability(told.confidence, told.right);
 }
 
 double calibration_error(const std::vector<Row>& rows, const std::vector<double>& confidence) {

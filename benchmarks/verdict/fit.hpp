@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gridmerge/judge/verdict.hpp"
+#include "statistics/logistic.hpp"
 #include "verdict/rows.hpp"
 
 namespace gridmerge::verdict_study {
@@ -36,16 +37,9 @@ using WeightsByKey = std::map<std::string, ConfidenceWeights>;
 [[nodiscard]] std::vector<std::string> place_keys(const std::vector<Row>& rows);
 [[nodiscard]] bool share_a_place(const std::string& first, const std::string& second);
 
-/// A part of rows by a confidence: those between two bounds.
-struct ReliabilityBin {
-  double low = 0;
-  double high = 1;
-  int rows = 0;
-  double mean_confidence = 0;
-  double share_right = 0;
-};
+using statistics::ReliabilityBin;
 [[nodiscard]] std::vector<ReliabilityBin> reliability(const std::vector<Row>& rows,
-                                                      const std::vector<double>& confidence, int bins = 10);
+                                                      const std::vector<double>& confidence);
 [[nodiscard]] double calibration_error(const std::vector<Row>& rows, const std::vector<double>& confidence);
 
 }  // namespace gridmerge::verdict_study

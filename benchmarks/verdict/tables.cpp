@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <functional>
+
+#include "gridmerge/base/number_text.hpp"
 
 namespace gridmerge::verdict_study {
 namespace {
@@ -49,12 +50,6 @@ std::string heading_of(const std::vector<std::string>& cells) {
     rule += "---|";
   }
   return line_of(cells) + rule + "\n";
-}
-
-std::string fixed(double value, int digits) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
 }
 
 bool merges(const Row& row, double confidence, double needed) { return confidence >= needed && !row.vetoed; }

@@ -1,7 +1,8 @@
 #include "gridmerge/judge/confidence.hpp"
 
 #include <array>
-#include <cmath>
+
+#include "gridmerge/base/logistic.hpp"
 
 namespace gridmerge {
 namespace {
@@ -36,7 +37,7 @@ double confidence_of(const ConfidenceFigures& figures, const ConfidenceWeights& 
   for (const ConfidenceTerm& term : kTerms) {
     sum += weights.per.*term.figure * figures.*term.figure;
   }
-  return 1 / (1 + std::exp(-sum));
+  return logistic(sum);
 }
 
 }  // namespace gridmerge

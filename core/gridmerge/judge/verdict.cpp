@@ -3,16 +3,11 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "gridmerge/base/number_text.hpp"
 
 namespace gridmerge {
 namespace {
-
-std::string fixed(double value, int digits) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
-}
 
 std::string percent(double share) { return fixed(100 * share, 0) + " %"; }
 
@@ -49,7 +44,8 @@ std::optional<WeakDirection> weak_direction(const PoseEstimate& estimate, const 
 }
 
 /// The best pose alone, as if no other came near.
-ConfidenceFigures unrivalled_figures(const Hypothesis& one, const Background& background, double deviations) {
+ConfidenceFigures unrivalled_figures(const Hypothesis& one, const Background& background,
+                                     const std::optional<WeakDirection>& weak, double deviations) {
   constexpr double kDecoyDoubt = 0.5;
   constexpr double kLittleShare = 0.4;
   constexpr double kWeak = -3;       // ln of 5 cm
@@ -57,7 +53,6 @@ ConfidenceFigures unrivalled_figures(const Hypothesis& one, const Background& ba
   constexpr double kNotKnown = 10;   // [m] what the refinement says of a direction that is not fixed at all
   const Figures& f = one.figures;
   const double near_m = in_free_m(f) - far_in_free_m(f);
-  const std::optional<WeakDirection> weak = weak_direction(one.target_from_source, background);
   ConfidenceFigures c;
   c.log_lead = std::log(std::max(1.0, f.evidence_m));
   c.lead = 1;
@@ -93,9 +88,7 @@ ConfidenceFigures rivalled_figures(ConfidenceFigures c, const std::vector<Hypoth
 }
 
 /// What the covariance says in words, where a direction is not fixed; none: all are.
-std::optional<std::string> not_fixed(const PoseEstimate& estimate, const Background& background,
-                                     const VerdictOptions& o) {
-  const std::optional<WeakDirection> weak = weak_direction(estimate, background);
+std::optional<std::string> not_fixed(const std::optional<WeakDirection>& weak, const VerdictOptions& o) {
   if (!weak || weak->deviation_m <= o.weak_direction_m) {
     return std::nullopt;
   }
@@ -200,8 +193,7 @@ void VerdictOptions::describe(OptionList& list) {
       .add("spotless_conflict_share", spotless_conflict_share, 0, 1,
            {"",
             "Another pose with no more conflict than this, and enough wall in common, is a doubt however far the best "
-            "one "
-            "leads.",
+            "one leads.",
             "A symmetric hall seen from two ends has such a pose; 0 allows it none."})
       .add("spotless_evidence_share", spotless_evidence_share, 0, 1,
            {"", "Such a pose must have this share of the best one's evidence.",
@@ -251,7 +243,8 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
   v.lead_m = std::max(0.0, best.evidence_m - other);
   v.lead = best.evidence_m > 0 ? v.lead_m / best.evidence_m : 0;
   v.deviations = random.deviation_m > 0 ? (best.evidence_m - random.mean_m) / random.deviation_m : 0;
-  const ConfidenceFigures alone = unrivalled_figures(first, background, v.deviations);
+  const std::optional<WeakDirection> weak = weak_direction(first.target_from_source, background);
+  const ConfidenceFigures alone = unrivalled_figures(first, background, weak, v.deviations);
   v.figures = rivalled_figures(alone, ranked);
   v.confidence = best.evidence_m > 0 ? confidence_of(v.figures, o.weights) : 0;
   // How sure one could be if no other pose came near: what is missing then is missing in the maps.
@@ -328,7 +321,7 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
     rivalled = true;
     doubts.push_back("another pose fits without conflict: " + in_words(spotless, first));
   }
-  const std::optional<std::string> loose = not_fixed(first.target_from_source, background, o);
+  const std::optional<std::string> loose = not_fixed(weak, o);
   if (loose) {
     doubts.push_back(*loose);
   }

@@ -4,13 +4,15 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "gridmerge/base/logistic.hpp"
+
 namespace gridmerge {
 namespace {
 
 /// How tight a fence is: 1 for none of its freedom, 0 for no fence at all.
 double tightness(double radius_m, double angle_deg) { return 1 / (1 + radius_m / 5 + angle_deg / 30); }
 
-double value_of(const std::vector<std::pair<std::string, double>>& values, std::string_view name) {
+double value_of(const NamedValues& values, std::string_view name) {
   const auto found = std::find_if(values.begin(), values.end(), [&](const auto& one) { return one.first == name; });
   if (found == values.end()) {
     throw std::invalid_argument("there is no feature called " + std::string(name));
@@ -18,8 +20,7 @@ double value_of(const std::vector<std::pair<std::string, double>>& values, std::
   return found->second;
 }
 
-std::vector<std::pair<std::string, double>> inputs_of(const SceneFeatures& target, const SceneFeatures& source,
-                                                      double prior) {
+NamedValues inputs_of(const SceneFeatures& target, const SceneFeatures& source, double prior) {
   const auto log_least = [](double a, double b) { return std::log(std::max(1.0, std::min(a, b))); };
   const double occupied = target.occupied_cells + source.occupied_cells;
   const double known_m2 = target.known_area_m2 + source.known_area_m2;
@@ -58,7 +59,15 @@ std::vector<FeatureText> BidInputs::texts() {
           {"prior", "", "1 / (1 + radius / 5 m + angle / 30 deg) of a prior's fence; 0 without one"}};
 }
 
-double WeightedSum::of(const std::vector<std::pair<std::string, double>>& inputs) const {
+std::vector<std::string> BidInputs::names() {
+  std::vector<std::string> names;
+  for (const FeatureText& text : texts()) {
+    names.push_back(text.name);
+  }
+  return names;
+}
+
+double WeightedSum::of(const NamedValues& inputs) const {
   double sum = 0;
   for (const auto& [name, weight] : weights) {
     sum += weight * value_of(inputs, name);
@@ -66,7 +75,17 @@ double WeightedSum::of(const std::vector<std::pair<std::string, double>>& inputs
   return sum;
 }
 
-std::vector<std::string> second_chance_inputs() { return {"bias", "log_odds", "ambiguous"}; }
+NamedValues second_chance_inputs(double confidence, bool is_ambiguous) {
+  return {{"bias", 1}, {"log_odds", log_odds(confidence)}, {"ambiguous", is_ambiguous ? 1 : 0}};
+}
+
+std::vector<std::string> second_chance_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : second_chance_inputs(0, false)) {
+    names.push_back(name);
+  }
+  return names;
+}
 
 std::optional<Bid> bid_of(const BidBook& book, std::string_view method, const BidInputs& inputs) {
   const auto model =
@@ -74,7 +93,7 @@ std::optional<Bid> bid_of(const BidBook& book, std::string_view method, const Bi
   if (model == book.methods.end()) {
     return std::nullopt;
   }
-  return Bid{.success = 1 / (1 + std::exp(-model->success.of(inputs.named()))),
+  return Bid{.success = logistic(model->success.of(inputs.named())),
              .seconds = std::exp(model->log_seconds.of(inputs.named()))};
 }
 

@@ -11,25 +11,29 @@
 
 namespace gridmerge {
 
+/// Inputs by name.
+using NamedValues = std::vector<std::pair<std::string, double>>;
+
 /// What a bid is computed from: of a pair of maps, and of what is known beforehand.
 class BidInputs {
  public:
   BidInputs(const SceneFeatures& target, const SceneFeatures& source, const std::optional<PosePrior>& prior);
 
   /// Name and value of each; stable names, as in the selector's YAML. The first is `bias`, always 1.
-  [[nodiscard]] const std::vector<std::pair<std::string, double>>& named() const { return named_; }
+  [[nodiscard]] const NamedValues& named() const { return named_; }
   /// The names alone, with what each means.
   [[nodiscard]] static std::vector<FeatureText> texts();
+  [[nodiscard]] static std::vector<std::string> names();
 
  private:
-  std::vector<std::pair<std::string, double>> named_;
+  NamedValues named_;
 };
 
 /// A weighted sum of inputs. What has no weight counts nothing.
 struct WeightedSum {
-  std::vector<std::pair<std::string, double>> weights;  ///< by name of the input
+  NamedValues weights;  ///< by name of the input
 
-  [[nodiscard]] double of(const std::vector<std::pair<std::string, double>>& inputs) const;
+  [[nodiscard]] double of(const NamedValues& inputs) const;
 };
 
 /// What the book knows of one method.
@@ -47,8 +51,10 @@ struct BidBook {
   WeightedSum second_chance;
 };
 
-/// Names that `second_chance` may weigh.
-[[nodiscard]] std::vector<std::string> second_chance_inputs();
+/// What `second_chance` weighs, of the verdict that did not merge. The first is `bias`, always 1.
+[[nodiscard]] NamedValues second_chance_inputs(double confidence, bool is_ambiguous);
+/// The names alone.
+[[nodiscard]] std::vector<std::string> second_chance_names();
 
 /// The book's bid; none where it does not know the method.
 [[nodiscard]] std::optional<Bid> bid_of(const BidBook& book, std::string_view method, const BidInputs& inputs);

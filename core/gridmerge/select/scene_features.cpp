@@ -102,9 +102,9 @@ bool is_ternary(const PreparedMap& map) {
 }  // namespace
 
 std::vector<std::pair<std::string, double>> SceneFeatures::named() const {
-  return {{"straightness", straightness},   {"directions", directions}, {"occupied_cells", occupied_cells},
-          {"known_area_m2", known_area_m2}, {"clutter", clutter},       {"self_similarity", self_similarity},
-          {"ternary", ternary ? 1 : 0}};
+  std::vector<std::pair<std::string, double>> all;
+  for_each_feature(*this, [&](const char* name, auto value) { all.emplace_back(name, static_cast<double>(value)); });
+  return all;
 }
 
 std::vector<FeatureText> scene_feature_texts() {

@@ -30,6 +30,18 @@ struct SceneFeatures {
   [[nodiscard]] std::vector<std::pair<std::string, double>> named() const;
 };
 
+/// Visits name and field of each, in the order above.
+template <typename AnyFeatures, typename Visit>
+void for_each_feature(AnyFeatures& features, Visit&& visit) {
+  visit("straightness", features.straightness);
+  visit("directions", features.directions);
+  visit("occupied_cells", features.occupied_cells);
+  visit("known_area_m2", features.known_area_m2);
+  visit("clutter", features.clutter);
+  visit("self_similarity", features.self_similarity);
+  visit("ternary", features.ternary);
+}
+
 /// What a feature is, for people: its unit and one sentence.
 struct FeatureText {
   std::string name;

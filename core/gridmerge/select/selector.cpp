@@ -2,20 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
+#include "gridmerge/base/logistic.hpp"
+#include "gridmerge/base/number_text.hpp"
 #include "gridmerge/base/parallel.hpp"
 
 namespace gridmerge {
 namespace {
-
-std::string fixed(double value, int digits) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
-}
 
 std::string percent(double share) { return fixed(100 * share, 1) + " %"; }
 
@@ -38,14 +32,6 @@ std::string in_words(const std::optional<PosePrior>& prior) {
     return "prior: a start without a fence";
   }
   return "prior: within " + fixed(*prior->radius_m, 1) + " m and " + fixed(degrees(*prior->angle_rad), 0) + " deg";
-}
-
-double logistic(double sum) { return 1 / (1 + std::exp(-sum)); }
-
-double log_odds(double chance) {
-  constexpr double kSure = 1e-4;
-  const double p = std::clamp(chance, kSure, 1 - kSure);
-  return std::log(p / (1 - p));
 }
 
 /// One alignment's way down the standings.
@@ -120,9 +106,8 @@ class Bidding final : public Choice {
   }
 
   [[nodiscard]] double second_chance(const Attempt& last) const {
-    return logistic(selector_.book().second_chance.of({{"bias", 1},
-                                                       {"log_odds", log_odds(last.confidence)},
-                                                       {"ambiguous", last.outcome == Outcome::kAmbiguous ? 1 : 0}}));
+    return logistic(
+        selector_.book().second_chance.of(second_chance_inputs(last.confidence, last.outcome == Outcome::kAmbiguous)));
   }
 
   [[nodiscard]] std::optional<MethodPick> pick(const Standing& standing, std::string why) {
@@ -171,15 +156,12 @@ void SelectorOptions::describe(OptionList& list) {
 Selector::Selector(std::vector<NamedMethod> methods, BidBook book, SelectorOptions options)
     : methods_(std::move(methods)), book_(std::move(book)), options_(options) {
   require_valid(options_, "selector");
-  std::vector<std::string> inputs;
-  for (const FeatureText& text : BidInputs::texts()) {
-    inputs.push_back(text.name);
-  }
+  const std::vector<std::string> inputs = BidInputs::names();
   for (const BidModel& model : book_.methods) {
     check_names(model.success, inputs, model.method + ".success");
     check_names(model.log_seconds, inputs, model.method + ".log_seconds");
   }
-  check_names(book_.second_chance, second_chance_inputs(), "second_chance");
+  check_names(book_.second_chance, second_chance_names(), "second_chance");
 }
 
 std::unique_ptr<Choice> Selector::begin(const AlignRequest& request, const RunContext& context) const {
