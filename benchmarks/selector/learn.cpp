@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 
-#include "statistics/logistic.hpp"
+#include "statistics/regression.hpp"
 
 namespace gridmerge::selector_study {
 namespace {

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "gridmerge/base/random.hpp"
+#include "statistics/regression.hpp"
 
 namespace gridmerge::verdict_study {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gridmerge/judge/verdict.hpp"
-#include "statistics/logistic.hpp"
+#include "statistics/reliability.hpp"
 #include "verdict/rows.hpp"
 
 namespace gridmerge::verdict_study {

@@ -2,8 +2,10 @@
 
 #include <cmath>
 
+#include "gridmerge/base/logistic.hpp"
 #include "gridmerge/base/random.hpp"
-#include "statistics/logistic.hpp"
+#include "statistics/regression.hpp"
+#include "statistics/reliability.hpp"
 
 namespace gridmerge::statistics {
 namespace {

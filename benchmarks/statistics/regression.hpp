@@ -1,9 +1,6 @@
 #pragma once
 /// Regressions that a person can read: weights, one an input.
 #include <Eigen/Core>
-#include <vector>
-
-#include "gridmerge/base/logistic.hpp"
 
 namespace gridmerge::statistics {
 
@@ -23,22 +20,5 @@ struct Weights {
 
 /// Least squares of values on inputs, with the same scaling and ridge.
 [[nodiscard]] Weights fit_linear(const Eigen::MatrixXd& inputs, const Eigen::VectorXd& values, double ridge);
-
-/// Rows of one bin of confidence.
-struct ReliabilityBin {
-  double low = 0;
-  double high = 0;
-  int rows = 0;
-  double mean_confidence = 0;
-  double share_right = 0;
-};
-/// In `bins` equal bins of confidence, from 0 to 1.
-[[nodiscard]] std::vector<ReliabilityBin> reliability(const Eigen::VectorXd& confidence, const Eigen::VectorXd& labels,
-                                                      int bins = 10);
-
-/// Expected calibration error: the mean over rows of |mean confidence - share of right ones| in each of the bins; 0
-/// without rows.
-[[nodiscard]] double expected_calibration_error(const Eigen::VectorXd& confidence, const Eigen::VectorXd& labels,
-                                                int bins = 10);
 
 }  // namespace gridmerge::statistics
