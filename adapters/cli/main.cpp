@@ -8,6 +8,7 @@
 #include "cli/program.hpp"
 #include "cli/usage_error.hpp"
 #include "gridmerge/base/error.hpp"
+#include "gridmerge/base/library_threads.hpp"
 #ifdef GRIDMERGE_WITH_BENCHMARKS
 #include "commands/commands.hpp"
 #endif
@@ -30,6 +31,7 @@ std::vector<gridmerge::cli::CommandMaker> further_commands() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  gridmerge::keep_opencv_on_the_calling_thread();
   using namespace gridmerge::cli;
   try {
     const int status = run_program(argc, argv, std::cout, further_commands());

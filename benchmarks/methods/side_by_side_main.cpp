@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "gridmerge/align/pipeline.hpp"
+#include "gridmerge/base/library_threads.hpp"
 #include "gridmerge/base/parallel.hpp"
 #include "gridmerge/base/random.hpp"
 #include "manifest/manifest.hpp"
@@ -174,6 +175,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  gridmerge::keep_opencv_on_the_calling_thread();
   CLI::App app("Runs every method on the same pairs, interleaved; prints a Markdown table a set.");
   Arguments arguments;
   app.add_option("manifests", arguments.manifests, "CSV files that list pairs; none: pairs are drawn");

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "gridmerge/base/library_threads.hpp"
 #include "gridmerge/base/number_text.hpp"
 #include "gridmerge/base/parallel.hpp"
 #include "methods/genetic/hit_fitness.hpp"
@@ -53,6 +54,7 @@ void print_window(int percent, const WindowResult& result, const std::optional<P
 }  // namespace
 
 int main(int argc, char** argv) {
+  gridmerge::keep_opencv_on_the_calling_thread();
   CLI::App app("Runs the genetic method as published over the windows of the thesis; prints a Markdown table.");
   std::filesystem::path manifest;
   ExperimentOptions options;

@@ -16,6 +16,7 @@
 
 #include "config/config_file.hpp"
 #include "gridmerge/base/error.hpp"
+#include "gridmerge/base/library_threads.hpp"
 #include "gridmerge/base/parallel.hpp"
 #include "map_server/whole_files.hpp"
 #include "methods/register_all.hpp"
@@ -167,6 +168,7 @@ void run_judge(const std::vector<Row>& rows, const std::filesystem::path& pictur
 }  // namespace
 
 int main(int argc, char** argv) {
+  gridmerge::keep_opencv_on_the_calling_thread();
   CLI::App app("Judges the verdict on pairs of maps with known truth, and fits the weights of its confidence.");
   app.require_subcommand(1);
   const auto cores = available_threads();

@@ -17,6 +17,7 @@
 #include <thread>
 #include <vector>
 
+#include "gridmerge/base/library_threads.hpp"
 #include "study/journal.hpp"
 #include "study/runner.hpp"
 #include "study_rows.hpp"
@@ -143,6 +144,7 @@ bool check(const std::string& program, int runs, const std::filesystem::path& fo
 }  // namespace
 
 int main(int argc, char** argv) {
+  gridmerge::keep_opencv_on_the_calling_thread();
   const std::vector<std::string> words(argv, argv + argc);
   if (words.size() != 4 || (words[1] != "check" && words[1] != "run")) {
     std::cerr << "usage: study_resume check|run RUNS FOLDER\n";

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "gridmerge/base/library_threads.hpp"
 #include "map_server/whole_files.hpp"
 #include "page/made_up_study.hpp"
 #include "page/page.hpp"
@@ -111,6 +112,7 @@ void write_example(const std::string& page_file, const std::string& csv_file, in
 }  // namespace gridmerge
 
 int main(int argc, char** argv) {
+  gridmerge::keep_opencv_on_the_calling_thread();
   if (argc < 3 || argc > 5) {
     std::fputs("page_example PAGE.html ROWS.csv [RUNS [PICTURES]]\n", stderr);
     return 2;
