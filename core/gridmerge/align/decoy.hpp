@@ -1,14 +1,38 @@
 #pragma once
-/// The sweep over all poses that every alignment makes, and the same for the mirrored source.
+/// What the best fit is worth on these very maps: held against the best fit of the source in a mirror.
+#include <optional>
+#include <vector>
+
 #include "gridmerge/align/correlation_sweep.hpp"
 #include "gridmerge/judge/decoy_level.hpp"
 
 namespace gridmerge {
 
-/// All angles by 3 degrees, cells of 0.2 m, of 0.4 m for larger maps.
+/// All angles by 3 degrees, cells of 0.2 m, of 0.4 m for larger maps: the sweep for rivals that a method overlooked.
 [[nodiscard]] SweepOptions survey_options();
 
-/// @param own  the sweep over the maps as they are, with survey_options()
-[[nodiscard]] DecoyLevel decoy_level(const SweepResult& own, const AlignRequest& request, const RunContext& context);
+/// Borrows the maps.
+class Decoy {
+ public:
+  /// Sweeps over all poses of the mirrored source, or those in the prior's fence (angles by 5 degrees, cells as above),
+  /// and climbs from the best of them.
+  Decoy(const AlignRequest& request, const RunContext& context);
+
+  /// The best smooth fit of the mirrored source [points of wall].
+  [[nodiscard]] double best() const { return best_; }
+  /// The best smooth fit of the source as it is, of those that these candidates climb to.
+  [[nodiscard]] double fit_of(const std::vector<Candidate>& candidates) const;
+  /// The run was stopped before all angles were swept: the best is too low to be worth anything.
+  [[nodiscard]] bool stopped() const { return stopped_; }
+
+ private:
+  const PreparedMap& target_;
+  const PreparedMap& source_;
+  std::optional<PoseWindow> window_;
+  std::optional<WallFit> fit_;  ///< of the maps as they are
+  double resolution_m_ = 0;
+  double best_ = 0;
+  bool stopped_ = false;
+};
 
 }  // namespace gridmerge

@@ -41,6 +41,33 @@ void quarter_turned(const HalfSpectrum& half, const Complex* from, Complex* to) 
   }
 }
 
+/// Two spectra: whose walls are read in whose rewards.
+struct SpectrumPair {
+  const Complex* __restrict first;
+  const Complex* __restrict second;
+};
+
+/// Sum of the two cross-correlations, as a spectrum: of the fixed ones with the conjugates of the moving ones, or with
+/// these as they are where `sign` is -1.
+void correlated(SpectrumPair fixed, SpectrumPair moving, float scale, float sign, std::size_t count,
+                Complex* __restrict product) {
+  // In plain numbers, which a compiler can do several of at a time; std::complex would look for infinities.
+  const auto* a = reinterpret_cast<const float*>(fixed.first);
+  const auto* b = reinterpret_cast<const float*>(fixed.second);
+  const auto* w = reinterpret_cast<const float*>(moving.first);
+  const auto* r = reinterpret_cast<const float*>(moving.second);
+  auto* to = reinterpret_cast<float*>(product);
+  const float minus = -sign * scale;
+  for (std::size_t i = 0; i < 2 * count; i += 2) {
+    const float wr = w[i] * scale;
+    const float wi = w[i + 1] * minus;
+    const float rr = r[i] * scale;
+    const float ri = r[i + 1] * minus;
+    to[i] = wr * a[i] - wi * a[i + 1] + rr * b[i] - ri * b[i + 1];
+    to[i + 1] = wr * a[i + 1] + wi * a[i] + rr * b[i + 1] + ri * b[i];
+  }
+}
+
 /// What one thread needs.
 struct Scratch {
   FourierArray<float> image;
@@ -108,12 +135,14 @@ std::vector<LatticePeak> surface_peaks(const ScoreSurface& surface, int at_most,
 }
 
 LatticeScores score_lattice(const PoseLattice& lattice, const RunContext& context,
-                            const std::function<void(const ScoreSurface&, std::size_t)>& visit) {
+                            const std::function<void(const ScoreSurface&, std::size_t)>& visit, Torus torus) {
   const MapLevel& fixed = lattice.fixed_level();
   const int reach = lattice.reach();
-  // As wide as both maps side by side, so that no translation wraps round onto another. Square, so that a quarter turn
-  // of an image is a quarter turn of its spectrum.
-  const int size = fast_size(std::max(fixed.width, fixed.height) + 2 * reach + 1);
+  // As wide as both maps side by side, so that no translation wraps round onto another; for a shared torus, as wide as
+  // either map with half of the other. Square, so that a quarter turn of an image is a quarter turn of its spectrum.
+  const int widest = std::max(fixed.width, fixed.height);
+  const int size =
+      fast_square_size(torus == Torus::kWhole ? widest + 2 * reach + 1 : std::max(widest + reach, 2 * reach) + 1);
   const RealTransform transform(size, size);
   const HalfSpectrum half{.columns = size / 2 + 1, .rows = size};
   const auto at = [&](int column, int row) {
@@ -193,17 +222,8 @@ LatticeScores score_lattice(const PoseLattice& lattice, const RunContext& contex
       const Complex* reward = quarters % 2 == 0 ? scratch.reward.get() : scratch.turned_reward.get();
       // Turned by a half, a real image's spectrum becomes its conjugate.
       const float sign = quarters < 2 ? 1.0F : -1.0F;
-      for (std::size_t i = 0; i < transform.spectrum_size(); ++i) {
-        const float wr = walls[i].real() * scale;
-        const float wi = -sign * walls[i].imag() * scale;
-        const float rr = reward[i].real() * scale;
-        const float ri = -sign * reward[i].imag() * scale;
-        const float ar = fixed_reward[i].real();
-        const float ai = fixed_reward[i].imag();
-        const float br = fixed_walls[i].real();
-        const float bi = fixed_walls[i].imag();
-        scratch.product[i] = {wr * ar - wi * ai + rr * br - ri * bi, wr * ai + wi * ar + rr * bi + ri * br};
-      }
+      correlated({fixed_reward.get(), fixed_walls.get()}, {walls, reward}, scale, sign, transform.spectrum_size(),
+                 scratch.product.get());
       transform.backward(scratch.product.get(), image);
       visit({.angle = static_cast<int>(group) * lattice.turns() + quarters,
              .size = size,

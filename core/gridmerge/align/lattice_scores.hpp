@@ -8,6 +8,14 @@
 
 namespace gridmerge {
 
+/// Whether every translation has its own place on the torus of an angle's scores.
+enum class Torus {
+  kWhole,  ///< yes
+  /// No: a translation that puts the moving map's centre beyond an edge of the fixed map shares its place with the one
+  /// `size` cells back, beyond the opposite edge, and the scores of both are added. Half the work.
+  kShared,
+};
+
 /// The scores of all translations at one angle, on a torus of `size` columns and rows: those left of the fixed map's
 /// first column are found at the far end, rows likewise.
 struct ScoreSurface {
@@ -22,7 +30,7 @@ struct ScoreSurface {
   [[nodiscard]] std::size_t offset(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(size) + static_cast<std::size_t>(column);
   }
-  /// A place on the torus as a pose of the lattice.
+  /// A place on the torus as a pose of the lattice; of those that share it, the farthest right and up.
   [[nodiscard]] LatticePose at(int column, int row) const {
     return {angle, column < width + reach ? column : column - size, row < height + reach ? row : row - size};
   }
@@ -51,6 +59,7 @@ struct LatticeScores {
 /// The rounding is a bound, not an estimate: three transforms, each with a relative error of at most 7 u log2(n) in the
 /// Euclidean norm (Higham, "Accuracy and Stability of Numerical Algorithms", 2002, theorem 24.2; u = 2^-24).
 LatticeScores score_lattice(const PoseLattice& lattice, const RunContext& context,
-                            const std::function<void(const ScoreSurface&, std::size_t)>& visit);
+                            const std::function<void(const ScoreSurface&, std::size_t)>& visit,
+                            Torus torus = Torus::kWhole);
 
 }  // namespace gridmerge

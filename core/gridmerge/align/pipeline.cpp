@@ -101,7 +101,7 @@ class Search {
       : request_(request),
         options_(options),
         context_(context),
-        evaluator_(request.target, request.source, options.evaluator) {
+        evaluator_(request.target, request.source, options.evaluator, context.num_threads) {
     alignment_.seconds.judge += watch_.lap();
   }
 
@@ -110,9 +110,12 @@ class Search {
     std::vector<Candidate> candidates = proposed_by(method, name);
     const std::size_t proposed = candidates.size();
     alignment_.seconds.propose += watch_.lap();
-    if (proposed > 0 && !background_.decoy && !context_.stop.stop_requested()) {
+    if (proposed > 0 && !background_.surveyed && !context_.stop.stop_requested()) {
       const std::vector<Candidate> others = survey();
       candidates.insert(candidates.end(), others.begin(), others.end());
+    }
+    if (proposed > 0) {
+      compare_with_decoy(candidates);
     }
     std::vector<Hypothesis> added = evaluated(candidates, proposed);
     alignment_.seconds.judge += watch_.lap();
@@ -143,19 +146,25 @@ class Search {
     return std::move(proposal.candidates);
   }
 
-  /// Looks at all poses, and at those of the mirrored source. @return rivals, where the methods may have overlooked any
+  /// Looks at all poses. @return the rivals that the methods may have overlooked
   std::vector<Candidate> survey() {
     const SweepResult sweep =
         correlation_sweep(request_.target, request_.source, window_of(request_), survey_options(), context_);
-    background_.decoy = decoy_level(sweep, request_, context_);
-    if (context_.stop.stop_requested()) {
-      background_.decoy.reset();
-      alignment_.stopped = true;
-      return {};
+    alignment_.stopped = alignment_.stopped || sweep.stopped;
+    background_.surveyed = !sweep.stopped;
+    return rivals(request_, sweep);
+  }
+
+  /// Keeps the best fit of all that was ever put forward, beside that of the source in a mirror.
+  void compare_with_decoy(const std::vector<Candidate>& candidates) {
+    if (!decoy_ && !context_.stop.stop_requested()) {
+      decoy_.emplace(request_, context_);
+      alignment_.stopped = alignment_.stopped || decoy_->stopped();
     }
-    const bool wanted = !background_.surveyed;
-    background_.surveyed = true;
-    return wanted ? rivals(request_, sweep) : std::vector<Candidate>{};
+    if (decoy_ && !decoy_->stopped()) {
+      const double before = background_.decoy ? background_.decoy->own : 0;
+      background_.decoy = {.own = std::max(before, decoy_->fit_of(candidates)), .decoy = decoy_->best()};
+    }
   }
 
   [[nodiscard]] std::vector<Hypothesis> evaluated(const std::vector<Candidate>& candidates,
@@ -207,16 +216,10 @@ class Search {
     listed = distinct(hypotheses_, request_.source.centre_in_map(), options_.verdict,
                       static_cast<std::size_t>(std::max(2, options_.hypotheses)));
     if (!listed.empty()) {
-      // All figures of the best, of its strongest rival, and of those without conflict: they enter the verdict.
-      const std::size_t rival = strongest_rival(listed);
-      parallel_for(listed.size(), context_.num_threads, [&](std::size_t i, std::size_t) {
-        Hypothesis& one = listed[i];
-        if (i == 0 || i == rival || is_spotless(one, options_.verdict)) {
-          one.figures = evaluator_.figures(one.target_from_source.pose);
-        }
-      });
+      // All figures of the best enter the verdict; of the others, how walls meet is enough.
+      listed.front().figures = evaluator_.figures(listed.front().target_from_source.pose, context_.num_threads);
       if (background_.random.poses == 0) {
-        background_.random = evaluator_.random_level(context_.seed);
+        background_.random = evaluator_.random_level(context_.seed, context_.num_threads);
       }
     }
     alignment_.random_level = background_.random;
@@ -239,6 +242,7 @@ class Search {
   Stopwatch watch_;
   Evaluator evaluator_;
   std::optional<Refiner> refiner_;
+  std::optional<Decoy> decoy_;
   Background background_{.random = {}, .decoy = {}, .surveyed = false};
   std::vector<Hypothesis> hypotheses_;  ///< of all methods, most support first
   Alignment alignment_;

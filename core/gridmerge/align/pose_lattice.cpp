@@ -50,8 +50,9 @@ std::pair<int, int> quarter_turned(int column, int row, int quarters) {
 
 PoseLattice::PoseLattice(const PreparedMap& fixed, const PreparedMap& moving, const std::optional<PoseWindow>& window,
                          const LatticeOptions& options)
-    : fixed_level_(&fixed.level(choose_level(fixed, moving, options))),
-      moving_level_(&moving.level(choose_level(fixed, moving, options))),
+    : level_(choose_level(fixed, moving, options)),
+      fixed_level_(&fixed.level(level_)),
+      moving_level_(&moving.level(level_)),
       window_(window),
       fixed_table_(*fixed_level_, options.fit),
       moving_table_(*moving_level_, options.fit),

@@ -57,6 +57,7 @@ class PoseLattice {
 
   [[nodiscard]] int angles() const { return turns_ * static_cast<int>(base_angles_rad_.size()); }
   [[nodiscard]] double resolution_m() const { return fixed_level_->resolution_m; }
+  [[nodiscard]] int level() const { return level_; }  ///< of both PreparedMaps
   /// How far apart neighbouring angles are [rad].
   [[nodiscard]] double angle_step_rad() const { return angle_step_rad_; }
   [[nodiscard]] double angle_rad(int angle) const;
@@ -84,6 +85,7 @@ class PoseLattice {
   [[nodiscard]] int reach() const { return reach_; }
 
  private:
+  int level_;
   const MapLevel* fixed_level_;
   const MapLevel* moving_level_;
   std::optional<PoseWindow> window_;

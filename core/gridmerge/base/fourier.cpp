@@ -28,6 +28,14 @@ FourierArray<T> zeros(std::size_t count) {
   return FourierArray<T>(p);
 }
 
+/// `n` (>= 1) divided by the factor as often as it goes.
+int without(int factor, int n) {
+  while (n % factor == 0) {
+    n /= factor;
+  }
+  return n;
+}
+
 }  // namespace
 
 void FourierFree::operator()(void* memory) const { fftwf_free(memory); }
@@ -37,13 +45,16 @@ FourierArray<std::complex<float>> spectrum_array(std::size_t count) { return zer
 
 int fast_size(int at_least) {
   for (int n = at_least + at_least % 2;; n += 2) {
-    int rest = n;
-    for (const int factor : {2, 3, 5}) {
-      while (rest % factor == 0) {
-        rest /= factor;
-      }
+    if (without(5, without(3, without(2, n))) == 1) {
+      return n;
     }
-    if (rest == 1) {
+  }
+}
+
+int fast_square_size(int at_least) {
+  for (int n = (at_least + 15) / 16 * 16;; n += 16) {
+    const int odd = without(2, n);
+    if (odd <= 25 && without(5, without(3, odd)) == 1) {
       return n;
     }
   }

@@ -22,6 +22,10 @@ using FourierArray = std::unique_ptr<T[], FourierFree>;
 /// The next size that is transformed fast: a product of 2, 3, 5 and even.
 [[nodiscard]] int fast_size(int at_least);
 
+/// The same for the side of a square: 16, 32, 48, 64, 80, 96, 128, ... Many threes and fives make an image slower to
+/// transform than the next larger one that has few (270 takes 1.7 times as long as 288).
+[[nodiscard]] int fast_square_size(int at_least);
+
 /// Transforms of one size, forth and back: rows of `width` numbers, `height` of them; height 1 is the plain transform.
 /// Const after construction and shared by threads. The spectrum has width/2 + 1 numbers a row.
 class RealTransform {

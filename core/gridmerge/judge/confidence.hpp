@@ -16,15 +16,14 @@ struct ConfidenceFigures {
   double decoy_doubt = 0;     ///< what DecoyLevel::log_ratio lacks of 0.5
   double log_deviations = 0;  ///< ln of how many standard deviations above random poses, at least 0.1
   // Walls in free space.
-  double near_conflict = 0;      ///< share of walls in free space within three tolerances of a wall
   double both_far_conflict = 0;  ///< Figures::both_far_conflict_share
+  double log_both_far = 0;       ///< ln of it, 0.005 added: the first of it says most
   double small_conflict = 0;     ///< Figures::small_conflict_share
   double elastic_gain = 0;       ///< conflict_share that goes away with every patch shifted by itself
   double roughness = 0;          ///< Figures::elastic_roughness_m
   // How much there is in common.
-  double log_overlap_share = 0;   ///< ln of the overlap's share of the smaller map, at least 1 %
-  double little_share = 0;        ///< what that share lacks of 0.4
-  double mutual_information = 0;  ///< [bit]
+  double log_overlap_share = 0;  ///< ln of the overlap's share of the smaller map, at least 1 %
+  double little_share = 0;       ///< what that share lacks of 0.4
   // How well the walls fix the pose.
   double log_weak = 0;        ///< ln of the pose's standard deviation at the source, in the direction fixed least [m]
   double weak_direction = 0;  ///< how far log_weak exceeds -3 (5 cm)

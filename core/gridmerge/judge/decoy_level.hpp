@@ -11,8 +11,8 @@
 namespace gridmerge {
 
 struct DecoyLevel {
-  double own = 0;    ///< the best smooth fitness of the coarse sweep [points of wall]
-  double decoy = 0;  ///< the same for the mirrored source
+  double own = 0;    ///< the best smooth fitness that any pose was found to have [points of wall]
+  double decoy = 0;  ///< the same for the mirrored source, of all poses
 
   /// ln(own / decoy), with five points added to each, so that specks say nothing. Below 0: the maps fit better in a
   /// mirror.

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <opencv2/imgproc.hpp>
 
+#include "gridmerge/base/parallel.hpp"
 #include "gridmerge/base/random.hpp"
 #include "gridmerge/judge/elastic.hpp"
 
@@ -105,21 +107,25 @@ std::vector<std::pair<std::string, double>> Figures::named() const {
           {"delta", delta}};
 }
 
-Evaluator::Evaluator(const PreparedMap& target, const PreparedMap& source, EvaluatorOptions options)
+Evaluator::Evaluator(const PreparedMap& target, const PreparedMap& source, EvaluatorOptions options, int num_threads)
     : options_(options) {
   require_valid(options_, "evaluator");
-  target_ = sided_map(target, options_.tolerance_m, options_.max_points);
-  source_ = sided_map(source, options_.tolerance_m, options_.max_points);
+  parallel_for(2, num_threads, [&](std::size_t i, std::size_t) {
+    (i == 0 ? target_ : source_) = sided_map(i == 0 ? target : source, options_.tolerance_m, options_.max_points);
+  });
 }
 
-WallMeeting Evaluator::meet(const SidedMap& fixed, const SidedMap& moving, const Pose2& fixed_from_moving) const {
+WallMeeting Evaluator::meet(const SidedMap& fixed, const SidedMap& moving, const Pose2& fixed_from_moving,
+                            std::size_t every) const {
   const MapLevel& level = fixed.map->level(0);
   const ToCells to(level, fixed_from_moving);
   const int turn = turn_64ths(fixed_from_moving);
   const auto clear_m = static_cast<float>(options_.tolerance_m + level.resolution_m);
   const auto far_m = static_cast<float>(3 * options_.tolerance_m);
   WallMeeting met;  // in walls, to begin with
-  for (const SidedWall& wall : moving.walls) {
+  for (std::size_t i = 0; i < moving.walls.size(); i += every) {
+    const SidedWall& wall = moving.walls[i];
+    met.all_m += 1;
     const int column = to.column(wall.at);
     const int row = to.row(wall.at);
     if (!level.contains(column, row)) {
@@ -137,12 +143,11 @@ WallMeeting Evaluator::meet(const SidedMap& fixed, const SidedMap& moving, const
       met.small_in_free_m += wall.small ? 1 : 0;
     }
   }
-  met.all_m = static_cast<double>(moving.walls.size());
   met.unseen_m = met.all_m - met.confirmed_m - met.in_free_m;
   for (double WallMeeting::*length :
        {&WallMeeting::all_m, &WallMeeting::confirmed_m, &WallMeeting::same_side_m, &WallMeeting::small_same_side_m,
         &WallMeeting::in_free_m, &WallMeeting::far_in_free_m, &WallMeeting::small_in_free_m, &WallMeeting::unseen_m}) {
-    met.*length *= moving.metres_a_wall;
+    met.*length *= moving.metres_a_wall * static_cast<double>(every);
   }
   return met;
 }
@@ -151,11 +156,13 @@ double Evaluator::evidence_m(const Pose2& target_from_source) const {
   return wall_figures(target_from_source).evidence_m;
 }
 
-Figures Evaluator::wall_figures(const Pose2& target_from_source) const {
+Figures Evaluator::wall_figures(const Pose2& target_from_source) const { return wall_figures(target_from_source, 1); }
+
+Figures Evaluator::wall_figures(const Pose2& target_from_source, std::size_t every) const {
   const Pose2 local = to_local(target_from_source, *target_.map, *source_.map);
   Figures f;
-  f.source_in_target = meet(target_, source_, local);
-  f.target_in_source = meet(source_, target_, inverse(local));
+  f.source_in_target = meet(target_, source_, local, every);
+  f.target_in_source = meet(source_, target_, inverse(local), every);
   const double same_side = f.source_in_target.same_side_m + f.target_in_source.same_side_m;
   const double in_free = f.source_in_target.in_free_m + f.target_in_source.in_free_m;
   const double far_in_free = f.source_in_target.far_in_free_m + f.target_in_source.far_in_free_m;
@@ -175,21 +182,26 @@ Figures Evaluator::wall_figures(const Pose2& target_from_source) const {
   return f;
 }
 
-Figures Evaluator::figures(const Pose2& target_from_source) const {
+Figures Evaluator::figures(const Pose2& target_from_source, int num_threads) const {
   Figures f = wall_figures(target_from_source);
   const Pose2 local = to_local(target_from_source, *target_.map, *source_.map);
-  add_elastic_figures(f, local);
-  add_cell_figures(f, local);
-  add_random_walk_figures(f, local);
-  return f;
-}
+  ElasticMeeting there;
+  ElasticMeeting back;
+  double psi_open = 0;
+  double psi_wall = 0;
+  const std::array<std::function<void()>, 5> parts = {
+      [&] { add_cell_figures(f, local); },
+      [&] { there = meet_elastically(target_, source_, local, options_.tolerance_m); },
+      [&] { back = meet_elastically(source_, target_, inverse(local), options_.tolerance_m); },
+      [&] { psi_open = psi_cells(local, CellState::kOpen); }, [&] { psi_wall = psi_cells(local, CellState::kWall); }};
+  parallel_for(parts.size(), num_threads, [&](std::size_t i, std::size_t) { parts[i](); });
 
-void Evaluator::add_elastic_figures(Figures& figures, const Pose2& local) const {
-  const ElasticMeeting there = meet_elastically(target_, source_, local, options_.tolerance_m);
-  const ElasticMeeting back = meet_elastically(source_, target_, inverse(local), options_.tolerance_m);
-  figures.elastic_conflict_share = share(there.in_free_m + back.in_free_m, there.same_side_m + back.same_side_m);
+  f.elastic_conflict_share = share(there.in_free_m + back.in_free_m, there.same_side_m + back.same_side_m);
   const double beside_m = there.beside_m + back.beside_m;
-  figures.elastic_roughness_m = beside_m > 0 ? (there.shift_m + back.shift_m) / beside_m : 0;
+  f.elastic_roughness_m = beside_m > 0 ? (there.shift_m + back.shift_m) / beside_m : 0;
+  f.psi_cells = psi_open + psi_wall;                                                     // Eq. 2.6
+  f.delta = f.psi_cells + options_.c_lock * (f.disagreement_cells - f.agreement_cells);  // Eq. 2.5
+  return f;
 }
 
 void Evaluator::add_cell_figures(Figures& figures, const Pose2& local) const {
@@ -241,43 +253,43 @@ void Evaluator::add_cell_figures(Figures& figures, const Pose2& local) const {
   }
 }
 
-void Evaluator::add_random_walk_figures(Figures& figures, const Pose2& local) const {
+double Evaluator::psi_cells(const Pose2& local, CellState state) const {
   constexpr int kLevel = 2;
   const MapLevel& target = target_.map->level(kLevel);
   const MapLevel& source = source_.map->level(kLevel);
   if (target.state.empty() || source.state.empty()) {
-    return;
+    return 0;
   }
-  for (const CellState state : {CellState::kOpen, CellState::kWall}) {  // Eq. 2.6
-    figures.psi_cells +=
-        mean_manhattan(target, source, local, state) + mean_manhattan(source, target, inverse(local), state);
-  }
-  figures.delta =
-      figures.psi_cells + options_.c_lock * (figures.disagreement_cells - figures.agreement_cells);  // Eq. 2.5
+  return mean_manhattan(target, source, local, state) + mean_manhattan(source, target, inverse(local), state);
 }
 
-RandomLevel Evaluator::random_level(std::uint64_t seed) const {
-  RandomLevel level;
-  double sum = 0;
-  double sum_of_squares = 0;
+RandomLevel Evaluator::random_level(std::uint64_t seed, int num_threads) const {
+  constexpr std::size_t kWalls = 2000;  // of both maps
   const PreparedMap& target = *target_.map;
   const PreparedMap& source = *source_.map;
-  for (int i = 0; i < options_.random_poses; ++i) {
+  RandomLevel level;
+  if (target.walls().empty() || source.walls().empty()) {
+    return level;
+  }
+  const std::size_t every = std::max<std::size_t>(1, (target_.walls.size() + source_.walls.size()) / kWalls);
+  std::vector<double> evidence(static_cast<std::size_t>(options_.random_poses));
+  parallel_for(evidence.size(), num_threads, [&](std::size_t i, std::size_t) {
     // A wall of one laid on a wall of the other, at any angle: so every pose overlaps, and chance has its best.
-    RandomStream random(seed, "evaluator/random poses", static_cast<std::uint64_t>(i));
-    if (target.walls().empty() || source.walls().empty()) {
-      break;
-    }
+    RandomStream random(seed, "evaluator/random poses", i);
     const Point2f t = target.walls()[random.below(static_cast<std::uint32_t>(target.walls().size()))].at;
     const Point2f s = source.walls()[random.below(static_cast<std::uint32_t>(source.walls().size()))].at;
     const double angle = random.uniform(-kPi, kPi);
     const Point2 turned = Pose2{0, 0, angle} * Point2{s.x_m, s.y_m};
     const Pose2 local{t.x_m - turned.x_m, t.y_m - turned.y_m, angle};
-    const double evidence = evidence_m(from_local(local, target, source));
-    sum += evidence;
-    sum_of_squares += evidence * evidence;
-    ++level.poses;
+    evidence[i] = wall_figures(from_local(local, target, source), every).evidence_m;
+  });
+  double sum = 0;
+  double sum_of_squares = 0;
+  for (const double one : evidence) {
+    sum += one;
+    sum_of_squares += one * one;
   }
+  level.poses = static_cast<int>(evidence.size());
   if (level.poses > 1) {
     const double n = level.poses;
     level.mean_m = sum / n;

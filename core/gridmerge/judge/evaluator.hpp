@@ -87,21 +87,24 @@ struct RandomLevel {
 class Evaluator {
  public:
   /// @throws std::invalid_argument listing every option out of range
-  Evaluator(const PreparedMap& target, const PreparedMap& source, EvaluatorOptions options);
+  Evaluator(const PreparedMap& target, const PreparedMap& source, EvaluatorOptions options, int num_threads = 1);
 
   /// Figures::evidence_m alone, at a fraction of the cost.
   [[nodiscard]] double evidence_m(const Pose2& target_from_source) const;
   /// The wall figures only; the rest is zero.
   [[nodiscard]] Figures wall_figures(const Pose2& target_from_source) const;
   /// All figures.
-  [[nodiscard]] Figures figures(const Pose2& target_from_source) const;
-  [[nodiscard]] RandomLevel random_level(std::uint64_t seed) const;
+  [[nodiscard]] Figures figures(const Pose2& target_from_source, int num_threads = 1) const;
+  /// Of large maps by some of their walls: a pose at random hits or misses many.
+  [[nodiscard]] RandomLevel random_level(std::uint64_t seed, int num_threads = 1) const;
 
  private:
-  [[nodiscard]] WallMeeting meet(const SidedMap& fixed, const SidedMap& moving, const Pose2& fixed_from_moving) const;
-  void add_elastic_figures(Figures& figures, const Pose2& local) const;
+  /// Figures::evidence_m and its like, of every n-th wall.
+  [[nodiscard]] Figures wall_figures(const Pose2& target_from_source, std::size_t every) const;
+  [[nodiscard]] WallMeeting meet(const SidedMap& fixed, const SidedMap& moving, const Pose2& fixed_from_moving,
+                                 std::size_t every) const;
   void add_cell_figures(Figures& figures, const Pose2& local) const;
-  void add_random_walk_figures(Figures& figures, const Pose2& local) const;
+  [[nodiscard]] double psi_cells(const Pose2& local, CellState state) const;
 
   EvaluatorOptions options_;
   SidedMap target_;

@@ -54,7 +54,10 @@ struct ToCells {
   [[nodiscard]] int row(Point2f p) const { return cell(s * p.x_m + c * p.y_m + y0); }
   /// The cell that holds a coordinate. Far outside of any map it stops counting, so that sums cannot overflow.
   [[nodiscard]] static int cell(float coordinate) {
-    return static_cast<int>(std::floor(std::clamp(coordinate, -1e6F, 1e6F)));
+    // Rounded down by hand: floor is a call on processors of before 2008, and this is asked for every cell.
+    const float within = std::clamp(coordinate, -1e6F, 1e6F);
+    const int towards_zero = static_cast<int>(within);
+    return towards_zero - (within < static_cast<float>(towards_zero) ? 1 : 0);
   }
 };
 

@@ -13,7 +13,6 @@ std::string percent(double share) { return fixed(100 * share, 0) + " %"; }
 
 double same_side_m(const Figures& f) { return f.source_in_target.same_side_m + f.target_in_source.same_side_m; }
 double in_free_m(const Figures& f) { return f.source_in_target.in_free_m + f.target_in_source.in_free_m; }
-double far_in_free_m(const Figures& f) { return f.source_in_target.far_in_free_m + f.target_in_source.far_in_free_m; }
 
 /// The direction in which a pose is known least.
 struct WeakDirection {
@@ -52,20 +51,18 @@ ConfidenceFigures unrivalled_figures(const Hypothesis& one, const Background& ba
   constexpr double kFinest = 0.005;  // [m]
   constexpr double kNotKnown = 10;   // [m] what the refinement says of a direction that is not fixed at all
   const Figures& f = one.figures;
-  const double near_m = in_free_m(f) - far_in_free_m(f);
   ConfidenceFigures c;
   c.log_lead = std::log(std::max(1.0, f.evidence_m));
   c.lead = 1;
   c.decoy_doubt = std::max(0.0, kDecoyDoubt - (background.decoy ? background.decoy->log_ratio() : 0));
   c.log_deviations = std::log(std::max(0.1, deviations));
-  c.near_conflict = near_m > 0 ? near_m / (near_m + same_side_m(f)) : 0;
   c.both_far_conflict = f.both_far_conflict_share;
+  c.log_both_far = std::log(f.both_far_conflict_share + 0.005);
   c.small_conflict = f.small_conflict_share;
   c.elastic_gain = f.conflict_share - f.elastic_conflict_share;
   c.roughness = f.elastic_roughness_m;
   c.log_overlap_share = std::log(std::max(0.01, f.overlap_share));
   c.little_share = std::max(0.0, kLittleShare - f.overlap_share);
-  c.mutual_information = f.mutual_information_bit;
   c.log_weak = std::log(std::max(kFinest, weak ? weak->deviation_m : kNotKnown));
   c.weak_direction = std::max(0.0, c.log_weak - kWeak);
   return c;
@@ -85,6 +82,11 @@ ConfidenceFigures rivalled_figures(ConfidenceFigures c, const std::vector<Hypoth
     }
   }
   return c;
+}
+
+/// Enough in common, and hardly a wall in free space: such a pose cannot be ruled out.
+bool is_spotless(const Figures& f, const VerdictOptions& o) {
+  return f.conflict_share < o.spotless_conflict_share && same_side_m(f) >= o.min_same_side_m;
 }
 
 /// What the covariance says in words, where a direction is not fixed; none: all are.
@@ -146,22 +148,21 @@ double VerdictOptions::needed_confidence() const {
 
 // configs/learned/verdict.yaml; a test holds the two together.
 ConfidenceWeights VerdictOptions::learned_weights() {
-  return {.bias = 15.1599,
-          .per = {.log_lead = 0.4891,
-                  .lead = 2.1684,
-                  .spotless_rival = -1.8956,
-                  .decoy_doubt = -3.5372,
-                  .log_deviations = -4.0695,
-                  .near_conflict = -5.1722,
-                  .both_far_conflict = -24.4472,
-                  .small_conflict = -4.4925,
-                  .elastic_gain = 20.6724,
-                  .roughness = -6.7641,
-                  .log_overlap_share = 1.2093,
-                  .little_share = -8.6768,
-                  .mutual_information = 6.308,
-                  .log_weak = 1.6005,
-                  .weak_direction = -2.0201}};
+  return {.bias = 10.9434,
+          .per = {.log_lead = 0.212,
+                  .lead = 2.7949,
+                  .spotless_rival = -2.3175,
+                  .decoy_doubt = -3.0937,
+                  .log_deviations = -4.3113,
+                  .both_far_conflict = -20.8,
+                  .log_both_far = -0.4717,
+                  .small_conflict = -4.2409,
+                  .elastic_gain = 17.8079,
+                  .roughness = -8.2398,
+                  .log_overlap_share = 0.9604,
+                  .little_share = -7.2248,
+                  .log_weak = 0.7242,
+                  .weak_direction = -2.0132}};
 }
 
 void VerdictOptions::describe(OptionList& list) {
@@ -224,10 +225,6 @@ std::size_t strongest_rival(const std::vector<Hypothesis>& ranked) {
   return rival;
 }
 
-bool is_spotless(const Hypothesis& hypothesis, const VerdictOptions& options) {
-  return hypothesis.figures.conflict_share < options.spotless_conflict_share;
-}
-
 Verdict judge(const std::vector<Hypothesis>& ranked, const Background& background, const VerdictOptions& o) {
   Verdict v;
   v.decoy = background.decoy ? background.decoy->log_ratio() : 0;
@@ -266,7 +263,6 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
   std::vector<std::string> doubts;
   constexpr double kAsClean = 0.08;
   constexpr double kPlausible = 0.5;  // of a pose alone: below, nothing is worth a doubt
-  bool rivalled = false;
   if (best.evidence_m <= 0) {
     nothing.push_back("more walls stand in free space than on walls: " + fixed(in_free_m(best), 1) + " m against " +
                       fixed(same_side_m(best), 1) + " m");
@@ -284,20 +280,29 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
                       " wanted");
   }
   v.vetoed = !nothing.empty();
-  if (unrivalled < std::min(kPlausible, needed)) {
+  // A rival with about as much evidence is a doubt, unless it has far more conflict: it then lies on more.
+  std::vector<const Hypothesis*> as_good;
+  // Laid over each other as far as they go, two halves of a symmetric hall agree in more than where they really meet. A
+  // lead says nothing then: a pose without conflict cannot be ruled out. Of the weak ones some have no conflict only
+  // because they hardly overlap.
+  std::vector<const Hypothesis*> spotless;
+  for (std::size_t i = 1; i < ranked.size(); ++i) {
+    const Hypothesis& one = ranked[i];
+    const Figures& f = one.figures;
+    if (f.evidence_m > (1 - o.min_lead) * best.evidence_m && f.conflict_share < best.conflict_share + kAsClean) {
+      as_good.push_back(&one);
+    }
+    if (is_spotless(f, o) && f.evidence_m >= o.spotless_evidence_share * best.evidence_m) {
+      spotless.push_back(&one);
+    }
+  }
+  const bool rivalled = !as_good.empty() || !spotless.empty();
+  // Where the best and another fit without conflict, as in a bare corridor, which of them is in doubt, not the overlap.
+  if (unrivalled < std::min(kPlausible, needed) && !(rivalled && is_spotless(best, o))) {
     nothing.push_back("too little speaks for an overlap: confidence " + fixed(v.confidence, 2) + ", and " +
                       fixed(unrivalled, 2) + " if no other pose came near; " + fixed(needed, 2) + " wanted");
   }
-  // A rival with about as much evidence is a doubt, unless it has far more conflict: it then lies on more.
-  std::vector<const Hypothesis*> as_good;
-  for (std::size_t i = 1; i < ranked.size(); ++i) {
-    const Figures& f = ranked[i].figures;
-    if (f.evidence_m > (1 - o.min_lead) * best.evidence_m && f.conflict_share < best.conflict_share + kAsClean) {
-      as_good.push_back(&ranked[i]);
-    }
-  }
   if (!as_good.empty()) {
-    rivalled = true;
     doubts.push_back("another pose fits about as well: " + in_words(as_good, first));
   } else if (v.confidence < needed && nothing.empty()) {
     const std::string wanted = "confidence " + fixed(v.confidence, 2) + " of " + fixed(needed, 2) + " wanted, " +
@@ -306,19 +311,7 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
                                                     in_words({&ranked[rival_at]}, first) + "; " + wanted
                                               : "not sure enough: " + wanted);
   }
-  // Laid over each other as far as they go, two halves of a symmetric hall agree in more than where they really meet. A
-  // lead says nothing then: a pose without conflict cannot be ruled out. Of the weak ones some have no conflict only
-  // because they hardly overlap.
-  std::vector<const Hypothesis*> spotless;
-  for (std::size_t i = 1; i < ranked.size(); ++i) {
-    const Hypothesis& one = ranked[i];
-    if (one.figures.evidence_m >= o.spotless_evidence_share * best.evidence_m && is_spotless(one, o) &&
-        same_side_m(one.figures) >= o.min_same_side_m) {
-      spotless.push_back(&one);
-    }
-  }
   if (!spotless.empty()) {
-    rivalled = true;
     doubts.push_back("another pose fits without conflict: " + in_words(spotless, first));
   }
   const std::optional<std::string> loose = not_fixed(weak, o);

@@ -26,7 +26,7 @@ enum class Outcome {
 /// A pose with what the Evaluator says of it.
 struct Hypothesis {
   PoseEstimate target_from_source;  ///< between map frames
-  Figures figures;  ///< all of them for the first one, its strongest rival, and those without conflict; else the walls'
+  Figures figures;                  ///< all of them for the first one; of the others, Evaluator::wall_figures
   double method_score = 0;
   bool proposed = true;  ///< by the method; false: a rival that the pipeline found
 };
@@ -87,9 +87,6 @@ struct Background {
 
 /// The index of the hypothesis other than the first that has the most evidence; ranked.size() where there is none.
 [[nodiscard]] std::size_t strongest_rival(const std::vector<Hypothesis>& ranked);
-
-/// Whether its walls hardly stand in free space anywhere: if it has enough in common, it cannot be ruled out.
-[[nodiscard]] bool is_spotless(const Hypothesis& hypothesis, const VerdictOptions& options);
 
 /// @param ranked  the hypothesis to judge, then the others, most support first; no two closer than the verdict's
 ///                distinct_m and distinct_deg

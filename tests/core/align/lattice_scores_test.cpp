@@ -174,6 +174,43 @@ TEST(LatticeScores, AreTheSumsWithinTheirRounding) {
   }
 }
 
+TEST(LatticeScores, OnASharedTorusAreTheSumsOfThosePosesThatShareAPlace) {
+  const PreparedMap fixed = posts_and_walls(3, 200, 200);
+  const PreparedMap moving = posts_and_walls(4, 190, 190);
+  const PoseLattice lattice(fixed, moving, std::nullopt, {.angle_step_rad = radians(45)});
+  int whole_size = 0;
+  score_lattice(lattice, {}, [&](const ScoreSurface& surface, std::size_t) { whole_size = surface.size; });
+  double rounding = 0;
+  int doubly = 0;
+  score_lattice(
+      lattice, {},
+      [&](const ScoreSurface& surface, std::size_t) {
+        ASSERT_LT(surface.size, whole_size);
+        const TurnedMap turned = lattice.turned(surface.angle / lattice.turns());
+        const int size = surface.size;
+        for (int row = 0; row < size; row += 3) {
+          for (int column = 0; column < size; column += 3) {
+            std::int64_t sum = 0;
+            int touching = 0;
+            for (const int up : {-size, 0, size}) {
+              for (const int right : {-size, 0, size}) {
+                const std::int64_t one = lattice.score({surface.angle, column + right, row + up}, turned);
+                sum += one;
+                touching += one != 0 ? 1 : 0;
+              }
+            }
+            doubly += touching > 1 ? 1 : 0;
+            ASSERT_NEAR(static_cast<double>(surface.score[surface.offset(column, row)]), static_cast<double>(sum),
+                        surface.rounding);
+          }
+        }
+        rounding = std::max(rounding, surface.rounding);
+      },
+      Torus::kShared);
+  EXPECT_GT(doubly, 0);  // or nothing was shared
+  EXPECT_GT(rounding, 0);
+}
+
 TEST(LatticeScores, StopsBetweenAngles) {
   const PreparedMap map = posts_and_walls(1, 60, 50);
   const PoseLattice lattice(map, map, std::nullopt, coarse());

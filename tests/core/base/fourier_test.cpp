@@ -46,6 +46,18 @@ TEST(FastSize, IsEvenAndNoSmaller) {
   EXPECT_EQ(fast_size(14), 16);
 }
 
+TEST(Fourier, SquaresHaveFewThreesAndFives) {
+  for (int n = 1; n < 3000; n += 7) {
+    EXPECT_GE(fast_square_size(n), n);
+    EXPECT_LE(fast_square_size(n), std::max(16.0, 1.5 * n));
+    EXPECT_EQ(fast_square_size(n) % 16, 0);
+  }
+  EXPECT_EQ(fast_square_size(1), 16);
+  EXPECT_EQ(fast_square_size(256), 256);
+  EXPECT_EQ(fast_square_size(257), 288);
+  EXPECT_EQ(fast_square_size(541), 576);
+}
+
 TEST(CircularCorrelation, IsTheSumOfItsDefinition) {
   for (const std::size_t n : {1U, 2U, 7U, 360U}) {
     const std::vector<float> a = random_numbers(n, 1);

@@ -271,10 +271,9 @@ TEST(Confidence, LearnedWeightsPointTheRightWay) {
                                      {&F::lead, 1},
                                      {&F::spotless_rival, -1},
                                      {&F::decoy_doubt, -1},
-                                     {&F::both_far_conflict, -1},
+                                     {&F::log_both_far, -1},
                                      {&F::small_conflict, -1},
-                                     {&F::little_share, -1},
-                                     {&F::mutual_information, 1}}) {
+                                     {&F::little_share, -1}}) {
     EXPECT_GT(sign * (weights.per.*figure), 0);
   }
 }
@@ -286,14 +285,13 @@ TEST(Confidence, IsHighForAClearPoseAndLowForADoubtfulOne) {
                                 .spotless_rival = 0.1,
                                 .decoy_doubt = 0,
                                 .log_deviations = 1.3,
-                                .near_conflict = 0.02,
                                 .both_far_conflict = 0,
+                                .log_both_far = -5.3,
                                 .small_conflict = 0.05,
                                 .elastic_gain = 0.01,
                                 .roughness = 0.08,
                                 .log_overlap_share = -0.2,
                                 .little_share = 0,
-                                .mutual_information = 0.12,
                                 .log_weak = -4,
                                 .weak_direction = 0};
   const ConfidenceWeights weights = VerdictOptions::learned_weights();
@@ -303,8 +301,8 @@ TEST(Confidence, IsHighForAClearPoseAndLowForADoubtfulOne) {
   doubtful.lead = 0.2;
   doubtful.log_lead = 2.5;
   doubtful.small_conflict = 0.4;
-  doubtful.near_conflict = 0.08;
   doubtful.both_far_conflict = 0.04;
+  doubtful.log_both_far = -3.1;
   EXPECT_LT(confidence_of(doubtful, weights), 0.5);
 }
 
