@@ -134,7 +134,7 @@ std::string to_string(Outcome outcome) {
   return "declined";
 }
 
-std::vector<Strictness> degrees_of_strictness() { return {{"cautious", 0.97}, {"normal", 0.8}, {"eager", 0.6}}; }
+std::vector<Strictness> degrees_of_strictness() { return {{"cautious", 0.97}, {"normal", 0.7}, {"eager", 0.6}}; }
 
 double VerdictOptions::needed_confidence() const {
   if (min_confidence > 0) {
@@ -148,21 +148,21 @@ double VerdictOptions::needed_confidence() const {
 
 // configs/learned/verdict.yaml; a test holds the two together.
 ConfidenceWeights VerdictOptions::learned_weights() {
-  return {.bias = 10.9434,
-          .per = {.log_lead = 0.212,
-                  .lead = 2.7949,
-                  .spotless_rival = -2.3175,
-                  .decoy_doubt = -3.0937,
-                  .log_deviations = -4.3113,
-                  .both_far_conflict = -20.8,
-                  .log_both_far = -0.4717,
-                  .small_conflict = -4.2409,
-                  .elastic_gain = 17.8079,
-                  .roughness = -8.2398,
-                  .log_overlap_share = 0.9604,
-                  .little_share = -7.2248,
-                  .log_weak = 0.7242,
-                  .weak_direction = -2.0132}};
+  return {.bias = 9.4668,
+          .per = {.log_lead = 0.2578,
+                  .lead = 2.2477,
+                  .spotless_rival = -2.3019,
+                  .decoy_doubt = -2.8854,
+                  .log_deviations = -4.183,
+                  .both_far_conflict = -12.309,
+                  .log_both_far = -0.7593,
+                  .small_conflict = -4.6146,
+                  .elastic_gain = 18.4173,
+                  .roughness = -7.4822,
+                  .log_overlap_share = 0.9609,
+                  .little_share = -7.1626,
+                  .log_weak = 0.8278,
+                  .weak_direction = -2.0185}};
 }
 
 void VerdictOptions::describe(OptionList& list) {
