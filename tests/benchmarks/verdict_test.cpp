@@ -323,8 +323,9 @@ TEST(Tables, SayHowOftenEachStrictnessIsWrongAndMisses) {
       << table;
   rows[2].vetoed = true;
   EXPECT_EQ(strictness_table(rows, {0.999, 0.3, 0.65, 0.1}).find("25.00 %"), std::string::npos);
-  EXPECT_NE(overlap_table(rows, {0.999, 0.3, 0.65, 0.1}).find("| 0.5 .. 0.7 | 2 | 2/2 (100.00 %) | 1/2 (50.00 %) | 0 |"),
-            std::string::npos);
+  EXPECT_NE(
+      overlap_table(rows, {0.999, 0.3, 0.65, 0.1}).find("| 0.5 .. 0.7 | 2 | 2/2 (100.00 %) | 1/2 (50.00 %) | 0 |"),
+      std::string::npos);
 }
 
 TEST(Pictures, AreWrittenWholeAndCanBeLookedAt) {

@@ -119,10 +119,8 @@ class Search {
     }
     std::vector<Hypothesis> added = evaluated(candidates, proposed);
     alignment_.seconds.judge += watch_.lap();
-    if (options_.refine || proposed < added.size()) {
-      refine(added, proposed);
-      alignment_.seconds.refine += watch_.lap();
-    }
+    refine(added, proposed);
+    alignment_.seconds.refine += watch_.lap();
     hypotheses_.insert(hypotheses_.end(), std::make_move_iterator(added.begin()), std::make_move_iterator(added.end()));
     rank(hypotheses_);
     judge_all();
@@ -192,12 +190,12 @@ class Search {
     const std::size_t count = std::min(hypotheses.size(), proposed < hypotheses.size() ? 2 * own : own);
     parallel_for(count, context_.num_threads, [&](std::size_t i, std::size_t) {
       Hypothesis& one = hypotheses[i];
-      if (one.proposed && !options_.refine) {
-        return;
-      }
       const PoseEstimate refined = (*refiner_)(one.target_from_source.pose);
-      const Figures figures = evaluator_.wall_figures(refined.pose);
       one.target_from_source.covariance = refined.covariance;
+      if (one.proposed && !options_.refine) {
+        return;  // stays where the method put it; how well the walls fix it is asked all the same
+      }
+      const Figures figures = evaluator_.wall_figures(refined.pose);
       if (!inside(to_local(refined.pose, request_.target, request_.source), window)) {
         return;
       }
@@ -251,7 +249,9 @@ class Search {
 }  // namespace
 
 void PipelineOptions::describe(OptionList& list) {
-  list.add("refine", refine, {"", "Refine the proposed poses to a fraction of a cell.", "`false` shows a method bare."})
+  list.add("refine", refine,
+           {"", "Refine the proposed poses to a fraction of a cell.",
+            "`false` shows a method bare; how well the walls fix its pose is computed all the same."})
       .add("refined_candidates", refined_candidates, 1, 1000,
            {"poses", "How many of the proposed poses are refined.", "Time grows with it."})
       .add("hypotheses", hypotheses, 1, 100, {"poses", "How many distinct poses the answer lists at the most.", ""});
