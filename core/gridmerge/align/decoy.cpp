@@ -14,11 +14,8 @@ constexpr std::size_t kClimbed = 6;
 /// Walls of each map that a pose is weighed by while climbing.
 constexpr std::size_t kMaxPoints = 1500;
 
-LatticeOptions decoy_lattice() {
-  LatticeOptions options = survey_options().lattice;
-  options.angle_step_rad = radians(5);
-  return options;
-}
+/// Cells of 0.2 m, of 0.4 m for larger maps.
+constexpr LatticeOptions kLattice{.angle_step_rad = radians(5), .coarsest_level = 3, .max_cells = 200};
 
 /// The best that can be climbed to from the best few.
 double best_climb(const WallFit& fitness, std::vector<ScoredPose> poses, double resolution_m,
@@ -32,44 +29,44 @@ double best_climb(const WallFit& fitness, std::vector<ScoredPose> poses, double 
   return best;
 }
 
-/// The best peak of every angle. Between local frames, fixed_from_moving.
+/// The best peak of every angle that has one. Between local frames, fixed_from_moving.
 std::vector<ScoredPose> swept(const PoseLattice& lattice, const std::optional<PoseWindow>& window,
                               const WallFit& fitness, const RunContext& context, bool& stopped) {
   const auto accept = [&](const LatticePose& at) { return !window || lattice.holds(at); };
   // A fence is narrow: little is saved there, and what lies in it must not be mixed with what does not.
   const Torus torus = window ? Torus::kWhole : Torus::kShared;
-  std::vector<ScoredPose> best_of(static_cast<std::size_t>(lattice.angles()));
+  std::vector<std::vector<ScoredPose>> best_of(static_cast<std::size_t>(lattice.angles()));
   const LatticeScores scores = score_lattice(
       lattice, context,
       [&](const ScoreSurface& surface, std::size_t) {
-        ScoredPose& best = best_of[static_cast<std::size_t>(surface.angle)];
+        std::vector<ScoredPose>& best = best_of[static_cast<std::size_t>(surface.angle)];
         for (const LatticePeak& peak : surface_peaks(surface, 1, accept)) {
-          best = {lattice.pose(peak.at), PoseLattice::fitness(static_cast<double>(peak.score))};
           if (torus == Torus::kWhole) {
+            best = {{lattice.pose(peak.at), PoseLattice::fitness(static_cast<double>(peak.score))}};
             continue;
           }
           // Of the poses that share the place, the best.
-          best.score = fitness(best.pose);
-          for (const auto& [columns, rows] :
-               {std::pair{surface.size, 0}, {0, surface.size}, {surface.size, surface.size}}) {
-            const Pose2 other = lattice.pose({peak.at.angle, peak.at.column - columns, peak.at.row - rows});
-            const double score = fitness(other);
-            if (score > best.score) {
-              best = {other, score};
+          for (const int columns : {0, surface.size}) {
+            for (const int rows : {0, surface.size}) {
+              const Pose2 pose = lattice.pose({peak.at.angle, peak.at.column - columns, peak.at.row - rows});
+              const double score = fitness(pose);
+              if (best.empty() || score > best.front().score) {
+                best = {{pose, score}};
+              }
             }
           }
         }
       },
       torus);
   stopped = scores.stopped;
-  return best_of;
+  std::vector<ScoredPose> all;
+  for (const std::vector<ScoredPose>& best : best_of) {
+    all.insert(all.end(), best.begin(), best.end());
+  }
+  return all;
 }
 
 }  // namespace
-
-SweepOptions survey_options() {
-  return {.lattice = {.angle_step_rad = radians(3), .coarsest_level = 3, .max_cells = 200}, .peaks_per_angle = 6};
-}
 
 Decoy::Decoy(const AlignRequest& request, const RunContext& context)
     : target_(request.target), source_(request.source), window_(window_of(request)) {
@@ -77,7 +74,7 @@ Decoy::Decoy(const AlignRequest& request, const RunContext& context)
   const bool swapped = !window_ && source_.radius_m() > target_.radius_m();
   const PreparedMap& fixed = swapped ? source_ : target_;
   const PreparedMap moving = (swapped ? target_ : source_).mirrored();
-  const PoseLattice lattice(fixed, moving, window_, decoy_lattice());
+  const PoseLattice lattice(fixed, moving, window_, kLattice);
   resolution_m_ = lattice.resolution_m();
   const WallFit fitness(fixed, moving, lattice.level(), {}, kMaxPoints);
   best_ = best_climb(fitness, swept(lattice, window_, fitness, context, stopped_), resolution_m_, window_);

@@ -3,19 +3,15 @@
 #include <optional>
 #include <vector>
 
-#include "gridmerge/align/correlation_sweep.hpp"
-#include "gridmerge/judge/decoy_level.hpp"
+#include "gridmerge/align/scored_pose.hpp"
 
 namespace gridmerge {
-
-/// All angles by 3 degrees, cells of 0.2 m, of 0.4 m for larger maps: the sweep for rivals that a method overlooked.
-[[nodiscard]] SweepOptions survey_options();
 
 /// Borrows the maps.
 class Decoy {
  public:
-  /// Sweeps over all poses of the mirrored source, or those in the prior's fence (angles by 5 degrees, cells as above),
-  /// and climbs from the best of them.
+  /// Sweeps over all poses of the mirrored source, or those in the prior's fence (angles by 5 degrees, cells of 0.2 or
+  /// 0.4 m), and climbs from the best of them.
   Decoy(const AlignRequest& request, const RunContext& context);
 
   /// The best smooth fit of the mirrored source [points of wall].

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "gridmerge/align/correlation_sweep.hpp"
 #include "gridmerge/align/decoy.hpp"
 #include "gridmerge/base/parallel.hpp"
 
@@ -146,8 +147,11 @@ class Search {
 
   /// Looks at all poses. @return the rivals that the methods may have overlooked
   std::vector<Candidate> survey() {
+    // Cells of 0.2 m, of 0.4 m for larger maps.
+    const SweepOptions coarse{.lattice = {.angle_step_rad = radians(3), .coarsest_level = 3, .max_cells = 200},
+                              .peaks_per_angle = 6};
     const SweepResult sweep =
-        correlation_sweep(request_.target, request_.source, window_of(request_), survey_options(), context_);
+        correlation_sweep(request_.target, request_.source, window_of(request_), coarse, context_);
     alignment_.stopped = alignment_.stopped || sweep.stopped;
     background_.surveyed = !sweep.stopped;
     return rivals(request_, sweep);

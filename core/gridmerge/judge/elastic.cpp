@@ -42,22 +42,19 @@ using PatchIndex = std::pair<int, int>;
 struct PlacedWall {
   int column = 0;
   int row = 0;
-  std::uint8_t octants = 0;  ///< a bit for the side it was seen from; all eight: not known
+  const SidedWall* wall = nullptr;
 };
 
 /// The walls of the moving map that fall on what the fixed one knows, by patch.
 std::map<PatchIndex, std::vector<PlacedWall>> patches_of(const SidedMap& moving, const MapLevel& level,
-                                                         const Pose2& fixed_from_moving) {
-  const ToCells to(level, fixed_from_moving);
-  const int turn = turn_64ths(fixed_from_moving);
+                                                         const ToCells& to) {
   std::map<PatchIndex, std::vector<PlacedWall>> patches;
   for (const SidedWall& wall : moving.walls) {
     const int column = to.column(wall.at);
     const int row = to.row(wall.at);
     if (level.contains(column, row) && level.state[level.offset(column, row)] != CellState::kUnseen) {
-      const auto side = static_cast<std::uint8_t>(1 << wall.side.octant_after_64ths(turn));
       patches[{static_cast<int>(std::floor(wall.at.x_m / kPatch)), static_cast<int>(std::floor(wall.at.y_m / kPatch))}]
-          .push_back({column, row, wall.side.known ? side : std::uint8_t{0xff}});
+          .push_back({column, row, &wall});
     }
   }
   return patches;
@@ -74,6 +71,8 @@ struct Met {
 ElasticMeeting meet_elastically(const SidedMap& fixed, const SidedMap& moving, const Pose2& fixed_from_moving,
                                 double tolerance_m) {
   const MapLevel& level = fixed.map->level(0);
+  const ToCells to(level, fixed_from_moving);
+  const int turn = turn_64ths(fixed_from_moving);
   const auto clear_m = static_cast<float>(0.5 * tolerance_m + level.resolution_m);
   const std::vector<Shift> shifts = shifts_of(level);
   const auto met_at = [&](const std::vector<PlacedWall>& walls, std::size_t every, const Shift& shift) {
@@ -86,7 +85,7 @@ ElasticMeeting meet_elastically(const SidedMap& fixed, const SidedMap& moving, c
       }
       const std::size_t at = level.offset(column, row);
       if (const std::uint8_t seen_from = fixed.seen_from_near[at]; seen_from != 0) {
-        met.same_side += walls[i].octants == 0xff ? 0.5 : (seen_from & walls[i].octants) != 0 ? 1 : 0;
+        met.same_side += same_side(*walls[i].wall, seen_from, turn);
       } else if (level.state[at] == CellState::kOpen && level.wall_distance_m[at] > clear_m) {
         met.in_free += 1;
       }
@@ -100,7 +99,7 @@ ElasticMeeting meet_elastically(const SidedMap& fixed, const SidedMap& moving, c
   };
   ElasticMeeting all;
   std::map<PatchIndex, Shifted> shifted;
-  for (const auto& [patch, walls] : patches_of(moving, level, fixed_from_moving)) {
+  for (const auto& [patch, walls] : patches_of(moving, level, to)) {
     const double walls_m = static_cast<double>(walls.size()) * moving.metres_a_wall;
     if (walls_m < kLeastWalls) {
       continue;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gridmerge/judge/decoy_level.hpp"
 #include "support/scenes.hpp"
 
 namespace gridmerge {
@@ -46,6 +47,15 @@ TEST(Decoy, TakesTheBestOfAllCandidates) {
   EXPECT_EQ(decoy.fit_of({off, right}), decoy.fit_of({right}));
   EXPECT_LT(decoy.fit_of({off}), decoy.fit_of({right}));
   EXPECT_EQ(decoy.fit_of({}), 0);
+}
+
+TEST(Decoy, LooksNowhereButInTheFence) {
+  // A hall laid on itself fits as well in a mirror; but far off, where the fence is, nothing meets anything.
+  const worlds::MapPair hall = worlds::make_scene({.kind = "hall", .seed = 2, .target_share = 1, .source_share = 1});
+  const PreparedMap map(hall.target, 0.05);
+  const PosePrior nowhere{.target_from_source = {500, 0, 0}, .radius_m = 2, .angle_rad = radians(20)};
+  EXPECT_GT(Decoy({.target = map, .source = map, .prior = {}}, {}).best(), 100);
+  EXPECT_EQ(Decoy({.target = map, .source = map, .prior = nowhere}, {}).best(), 0);
 }
 
 TEST(Decoy, IsTheSameForSwappedMaps) {
