@@ -1,9 +1,11 @@
 #include "gridmerge/align/decoy.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "gridmerge/align/lattice_scores.hpp"
+#include "gridmerge/base/parallel.hpp"
 
 namespace gridmerge {
 namespace {
@@ -19,14 +21,13 @@ constexpr LatticeOptions kLattice{.angle_step_rad = radians(5), .coarsest_level 
 
 /// The best that can be climbed to from the best few.
 double best_climb(const WallFit& fitness, std::vector<ScoredPose> poses, double resolution_m,
-                  const std::optional<PoseWindow>& window) {
-  double best = 0;
-  for (const ScoredPose& start : distinct_poses(std::move(poses), {1, radians(6)}, kClimbed)) {
-    const ScoredPose top =
-        climb(fitness, start.pose, {resolution_m, radians(2)}, {resolution_m / 4, radians(0.5)}, window);
-    best = std::max(best, top.score);
-  }
-  return best;
+                  const std::optional<PoseWindow>& window, int num_threads) {
+  const std::vector<ScoredPose> starts = distinct_poses(std::move(poses), {1, radians(6)}, kClimbed);
+  std::vector<double> tops(starts.size());
+  parallel_for(starts.size(), num_threads, [&](std::size_t i, std::size_t) {
+    tops[i] = climb(fitness, starts[i].pose, {resolution_m, radians(2)}, {resolution_m / 4, radians(0.5)}, window).score;
+  });
+  return std::accumulate(tops.begin(), tops.end(), 0.0, [](double a, double b) { return std::max(a, b); });
 }
 
 /// The best peak of every angle that has one. Between local frames, fixed_from_moving.
@@ -48,7 +49,11 @@ std::vector<ScoredPose> swept(const PoseLattice& lattice, const std::optional<Po
           // Of the poses that share the place, the best.
           for (const int columns : {0, surface.size}) {
             for (const int rows : {0, surface.size}) {
-              const Pose2 pose = lattice.pose({peak.at.angle, peak.at.column - columns, peak.at.row - rows});
+              const LatticePose at{peak.at.angle, peak.at.column - columns, peak.at.row - rows};
+              if (at.column < -surface.reach || at.row < -surface.reach) {
+                continue;  // the maps would not touch
+              }
+              const Pose2 pose = lattice.pose(at);
               const double score = fitness(pose);
               if (best.empty() || score > best.front().score) {
                 best = {{pose, score}};
@@ -77,17 +82,18 @@ Decoy::Decoy(const AlignRequest& request, const RunContext& context)
   const PoseLattice lattice(fixed, moving, window_, kLattice);
   resolution_m_ = lattice.resolution_m();
   const WallFit fitness(fixed, moving, lattice.level(), {}, kMaxPoints);
-  best_ = best_climb(fitness, swept(lattice, window_, fitness, context, stopped_), resolution_m_, window_);
+  best_ = best_climb(fitness, swept(lattice, window_, fitness, context, stopped_), resolution_m_, window_,
+                     context.num_threads);
   fit_.emplace(target_, source_, lattice.level(), WallFitOptions{}, kMaxPoints);
 }
 
-double Decoy::fit_of(const std::vector<Candidate>& candidates) const {
-  std::vector<ScoredPose> poses;
-  for (const Candidate& candidate : candidates) {
-    const Pose2 pose = to_local(candidate.target_from_source, target_, source_);
-    poses.push_back({pose, (*fit_)(pose)});
-  }
-  return best_climb(*fit_, std::move(poses), resolution_m_, window_);
+double Decoy::fit_of(const std::vector<Candidate>& candidates, int num_threads) const {
+  std::vector<ScoredPose> poses(candidates.size());
+  parallel_for(poses.size(), num_threads, [&](std::size_t i, std::size_t) {
+    const Pose2 pose = to_local(candidates[i].target_from_source, target_, source_);
+    poses[i] = {pose, (*fit_)(pose)};
+  });
+  return best_climb(*fit_, std::move(poses), resolution_m_, window_, num_threads);
 }
 
 }  // namespace gridmerge

@@ -17,7 +17,7 @@ class Decoy {
   /// The best smooth fit of the mirrored source [points of wall].
   [[nodiscard]] double best() const { return best_; }
   /// The best smooth fit of the source as it is, of those that these candidates climb to.
-  [[nodiscard]] double fit_of(const std::vector<Candidate>& candidates) const;
+  [[nodiscard]] double fit_of(const std::vector<Candidate>& candidates, int num_threads = 1) const;
   /// The run was stopped before all angles were swept: the best is too low to be worth anything.
   [[nodiscard]] bool stopped() const { return stopped_; }
 

@@ -213,8 +213,8 @@ Refiner::Refiner(const PreparedMap& target, const PreparedMap& source, RefineOpt
     : target_(target),
       source_(source),
       options_(options),
-      target_sides_(sides_within(target, kSideReach)),
-      source_sides_(sides_within(source, kSideReach)) {
+      target_sides_(sides_within(target, wall_sides(target), kSideReach)),
+      source_sides_(sides_within(source, wall_sides(source), kSideReach)) {
   require_valid(options_, "refine");
 }
 

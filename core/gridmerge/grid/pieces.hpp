@@ -6,8 +6,8 @@
 
 namespace gridmerge {
 
-/// For each of the map's walls, in their order: whether the piece of occupied cells that it is part of (cells that
-/// touch, also by a corner) is less than `width_m` wide each way.
-[[nodiscard]] std::vector<bool> in_small_pieces(const PreparedMap& map, double width_m);
+/// For each of the map's walls, in their order: how wide the piece of occupied cells is that it is part of (cells that
+/// touch, also by a corner): the longer side of its bounding box along the grid's axes [m].
+[[nodiscard]] std::vector<float> piece_widths_m(const PreparedMap& map);
 
 }  // namespace gridmerge

@@ -76,6 +76,7 @@ class PreparedMap {
   [[nodiscard]] double resolution_m() const { return resolution_m_; }
   /// Level 0 is the finest; each next one has cells twice as wide. Level 0 alone where nothing is known.
   [[nodiscard]] const MapLevel& level(int k) const { return levels_[static_cast<std::size_t>(k)]; }
+  /// Row by row from below, each from the left.
   [[nodiscard]] const std::vector<WallPoint>& walls() const { return walls_; }
   /// Radius round the local origin within which all known cells lie [m].
   [[nodiscard]] double radius_m() const { return radius_m_; }

@@ -21,9 +21,14 @@ struct WallSide {
   [[nodiscard]] int octant_after_64ths(int turn_64ths) const { return ((direction + turn_64ths + 4) >> 3) & 7; }
 };
 
+/// Of each of the map's walls, in their order.
+[[nodiscard]] std::vector<WallSide> wall_sides(const PreparedMap& map);
+
 /// For each cell of level 0, a bit for every octant from which a wall within `reach_m` may have been seen: its own and
 /// the two beside it, so that normals up to about 60 degrees apart agree; all eight where its side is not known. 0: no
 /// wall within reach.
-[[nodiscard]] std::vector<std::uint8_t> sides_within(const PreparedMap& map, double reach_m);
+/// @param sides  wall_sides of the map
+[[nodiscard]] std::vector<std::uint8_t> sides_within(const PreparedMap& map, const std::vector<WallSide>& sides,
+                                                     double reach_m);
 
 }  // namespace gridmerge

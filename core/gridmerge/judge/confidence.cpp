@@ -11,18 +11,17 @@ using F = ConfidenceFigures;
 
 constexpr std::array kTerms = {
     ConfidenceTerm{"log_lead", &F::log_lead, "natural logarithm of the lead in evidence [m]"},
-    ConfidenceTerm{"lead", &F::lead, "unit of lead"},
     ConfidenceTerm{"spotless_rival", &F::spotless_rival, "unit of the evidence share of the strongest spotless rival"},
     ConfidenceTerm{"decoy_doubt", &F::decoy_doubt,
                    "unit that the logarithm of how much better the maps fit than in a mirror lacks of 0.5"},
     ConfidenceTerm{"log_deviations", &F::log_deviations, "natural logarithm of the deviations above random poses"},
-    ConfidenceTerm{"both_far_conflict", &F::both_far_conflict, "unit of both_far_conflict_share"},
     ConfidenceTerm{"log_both_far", &F::log_both_far, "natural logarithm of both_far_conflict_share, 0.005 added"},
-    ConfidenceTerm{"small_conflict", &F::small_conflict, "unit of small_conflict_share"},
+    ConfidenceTerm{"furniture", &F::furniture, "unit of furniture_conflict_share"},
+    ConfidenceTerm{"both_furniture", &F::both_furniture, "unit of both_furniture_conflict_share"},
+    ConfidenceTerm{"fittings", &F::fittings, "unit of fittings_conflict_share"},
     ConfidenceTerm{"elastic_gain", &F::elastic_gain, "unit of conflict share that shifted patches take away"},
     ConfidenceTerm{"roughness", &F::roughness, "metre of elastic_roughness"},
     ConfidenceTerm{"log_overlap_share", &F::log_overlap_share, "natural logarithm of overlap_share"},
-    ConfidenceTerm{"little_share", &F::little_share, "unit that overlap_share lacks of 0.4"},
     ConfidenceTerm{"log_weak", &F::log_weak, "natural logarithm of the weakest direction's standard deviation [m]"},
     ConfidenceTerm{"weak_direction", &F::weak_direction, "unit that this logarithm exceeds -3 by"},
 };

@@ -11,19 +11,18 @@ namespace gridmerge {
 struct ConfidenceFigures {
   // Beside the other poses.
   double log_lead = 0;        ///< ln of the lead in evidence over the strongest other pose [m], at least 1 m
-  double lead = 0;            ///< the same as a share of the evidence
   double spotless_rival = 0;  ///< evidence of the strongest other pose with less than 3 % conflict, as a share
   double decoy_doubt = 0;     ///< what DecoyLevel::log_ratio lacks of 0.5
   double log_deviations = 0;  ///< ln of how many standard deviations above random poses, at least 0.1
   // Walls in free space.
-  double both_far_conflict = 0;  ///< Figures::both_far_conflict_share
-  double log_both_far = 0;       ///< ln of it, 0.005 added: the first of it says most
-  double small_conflict = 0;     ///< Figures::small_conflict_share
-  double elastic_gain = 0;       ///< conflict_share that goes away with every patch shifted by itself
-  double roughness = 0;          ///< Figures::elastic_roughness_m
+  double log_both_far = 0;        ///< ln of Figures::both_far_conflict_share, 0.005 added: the first of it says most
+  double furniture = 0;           ///< Figures::furniture_conflict_share
+  double both_furniture = 0;      ///< Figures::both_furniture_conflict_share
+  double fittings = 0;            ///< Figures::fittings_conflict_share
+  double elastic_gain = 0;        ///< conflict_share that goes away with every patch shifted by itself
+  double roughness = 0;           ///< Figures::elastic_roughness_m
   // How much there is in common.
   double log_overlap_share = 0;  ///< ln of the overlap's share of the smaller map, at least 1 %
-  double little_share = 0;       ///< what that share lacks of 0.4
   // How well the walls fix the pose.
   double log_weak = 0;        ///< ln of the pose's standard deviation at the source, in the direction fixed least [m]
   double weak_direction = 0;  ///< how far log_weak exceeds -3 (5 cm)

@@ -64,7 +64,17 @@ std::map<PatchIndex, std::vector<PlacedWall>> patches_of(const SidedMap& moving,
 struct Met {
   double same_side = 0;
   double in_free = 0;
+
+  [[nodiscard]] double gain() const { return same_side - in_free; }
 };
+
+/// The same of all of its walls, and of those in pieces that nobody moves.
+struct MetBy {
+  Met all;
+  Met fixtures;
+};
+
+bool is_fixture(const SidedWall& wall) { return wall.piece == Piece::kFittings || wall.piece == Piece::kWall; }
 
 }  // namespace
 
@@ -76,7 +86,7 @@ ElasticMeeting meet_elastically(const SidedMap& fixed, const SidedMap& moving, c
   const auto clear_m = static_cast<float>(0.5 * tolerance_m + level.resolution_m);
   const std::vector<Shift> shifts = shifts_of(level);
   const auto met_at = [&](const std::vector<PlacedWall>& walls, std::size_t every, const Shift& shift) {
-    Met met;
+    MetBy met;
     for (std::size_t i = 0; i < walls.size(); i += every) {
       const int column = walls[i].column + shift.columns;
       const int row = walls[i].row + shift.rows;
@@ -85,9 +95,12 @@ ElasticMeeting meet_elastically(const SidedMap& fixed, const SidedMap& moving, c
       }
       const std::size_t at = level.offset(column, row);
       if (const std::uint8_t seen_from = fixed.seen_from_near[at]; seen_from != 0) {
-        met.same_side += same_side(*walls[i].wall, seen_from, turn);
+        const double same = same_side(*walls[i].wall, seen_from, turn);
+        met.all.same_side += same;
+        met.fixtures.same_side += is_fixture(*walls[i].wall) ? same : 0;
       } else if (level.state[at] == CellState::kOpen && level.wall_distance_m[at] > clear_m) {
-        met.in_free += 1;
+        met.all.in_free += 1;
+        met.fixtures.in_free += is_fixture(*walls[i].wall) ? 1 : 0;
       }
     }
     return met;
@@ -106,20 +119,29 @@ ElasticMeeting meet_elastically(const SidedMap& fixed, const SidedMap& moving, c
     }
     const std::size_t every = (walls.size() + kMostInAPatch - 1) / kMostInAPatch;
     Met best;
-    Shift chosen;
+    Shift of_fixtures;
     double most = -std::numeric_limits<double>::infinity();
+    double most_of_fixtures = most;
     for (const Shift& shift : shifts) {
-      const Met met = met_at(walls, every, shift);
-      if (met.same_side - met.in_free > most) {
-        most = met.same_side - met.in_free;
-        best = met;
-        chosen = shift;
+      const MetBy met = met_at(walls, every, shift);
+      if (met.all.gain() > most) {
+        most = met.all.gain();
+        best = met.all;
+      }
+      if (met.fixtures.gain() > most_of_fixtures) {
+        most_of_fixtures = met.fixtures.gain();
+        of_fixtures = shift;
       }
     }
     const double unit_m = moving.metres_a_wall * static_cast<double>(every);
     all.same_side_m += best.same_side * unit_m;
     all.in_free_m += best.in_free * unit_m;
-    shifted[patch] = {chosen, walls_m};
+    const auto fixtures =
+        std::count_if(walls.begin(), walls.end(), [](const PlacedWall& one) { return is_fixture(*one.wall); });
+    const double fixtures_m = static_cast<double>(fixtures) * moving.metres_a_wall;
+    if (fixtures_m >= kLeastWalls) {
+      shifted[patch] = {of_fixtures, fixtures_m};
+    }
   }
   for (const auto& [patch, one] : shifted) {
     for (const PatchIndex& beside : {PatchIndex{patch.first + 1, patch.second}, {patch.first, patch.second + 1}}) {

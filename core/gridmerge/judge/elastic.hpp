@@ -9,8 +9,9 @@ namespace gridmerge {
 struct ElasticMeeting {
   double same_side_m = 0;  ///< within half the tolerance of a wall seen from the same side
   double in_free_m = 0;    ///< in the other map's free space, beyond half the tolerance of any wall
-  double shift_m = 0;      ///< sum over neighbouring patches of how far their shifts differ, times their walls [m2]
-  double beside_m = 0;     ///< the walls that shift_m was summed over
+  // Of walls and fittings alone, as furniture moves by itself:
+  double shift_m = 0;   ///< sum over neighbouring patches of how far their shifts differ, times their walls [m2]
+  double beside_m = 0;  ///< the walls that shift_m was summed over
 };
 
 /// Each patch of 4 m x 4 m takes of all shifts up to 0.6 m the one with the most walls on walls less walls in free

@@ -81,7 +81,9 @@ std::vector<std::pair<std::string, double>> Figures::named() const {
           {"far_conflict_share", far_conflict_share},
           {"same_side_share", same_side_share},
           {"both_far_conflict_share", both_far_conflict_share},
-          {"small_conflict_share", small_conflict_share},
+          {"furniture_conflict_share", furniture_conflict_share},
+          {"both_furniture_conflict_share", both_furniture_conflict_share},
+          {"fittings_conflict_share", fittings_conflict_share},
           {"elastic_conflict_share", elastic_conflict_share},
           {"elastic_roughness_m", elastic_roughness_m},
           {"source_walls_m", source_in_target.all_m},
@@ -125,6 +127,7 @@ WallMeeting Evaluator::meet(const SidedMap& fixed, const SidedMap& moving, const
   WallMeeting met;  // in walls, to begin with
   for (std::size_t i = 0; i < moving.walls.size(); i += every) {
     const SidedWall& wall = moving.walls[i];
+    PieceMeeting& piece = met.pieces[static_cast<std::size_t>(wall.piece)];
     met.all_m += 1;
     const int column = to.column(wall.at);
     const int row = to.row(wall.at);
@@ -136,18 +139,24 @@ WallMeeting Evaluator::meet(const SidedMap& fixed, const SidedMap& moving, const
       const double same = same_side(wall, seen_from, turn);
       met.confirmed_m += 1;
       met.same_side_m += same;
-      met.small_same_side_m += wall.small ? same : 0;
+      piece.same_side_m += same;
     } else if (level.state[at] == CellState::kOpen && level.wall_distance_m[at] > clear_m) {
+      const double far = level.wall_distance_m[at] > far_m ? 1 : 0;
       met.in_free_m += 1;
-      met.far_in_free_m += level.wall_distance_m[at] > far_m ? 1 : 0;
-      met.small_in_free_m += wall.small ? 1 : 0;
+      met.far_in_free_m += far;
+      piece.in_free_m += 1;
+      piece.far_in_free_m += far;
     }
   }
   met.unseen_m = met.all_m - met.confirmed_m - met.in_free_m;
+  const double metres = moving.metres_a_wall * static_cast<double>(every);
   for (double WallMeeting::*length :
-       {&WallMeeting::all_m, &WallMeeting::confirmed_m, &WallMeeting::same_side_m, &WallMeeting::small_same_side_m,
-        &WallMeeting::in_free_m, &WallMeeting::far_in_free_m, &WallMeeting::small_in_free_m, &WallMeeting::unseen_m}) {
-    met.*length *= moving.metres_a_wall * static_cast<double>(every);
+       {&WallMeeting::all_m, &WallMeeting::confirmed_m, &WallMeeting::same_side_m, &WallMeeting::in_free_m,
+        &WallMeeting::far_in_free_m, &WallMeeting::unseen_m}) {
+    met.*length *= metres;
+  }
+  for (PieceMeeting& piece : met.pieces) {
+    piece = {metres * piece.same_side_m, metres * piece.in_free_m, metres * piece.far_in_free_m};
   }
   return met;
 }
@@ -174,12 +183,28 @@ Figures Evaluator::wall_figures(const Pose2& target_from_source, std::size_t eve
   f.conflict_share = share(in_free, same_side);
   f.far_conflict_share = share(far_in_free, same_side);
   f.same_side_share = confirmed > 0 ? same_side / confirmed : 0;
-  f.both_far_conflict_share = std::min(share(f.source_in_target.far_in_free_m, f.source_in_target.same_side_m),
-                                       share(f.target_in_source.far_in_free_m, f.target_in_source.same_side_m));
-  const double small_same = f.source_in_target.small_same_side_m + f.target_in_source.small_same_side_m;
-  const double small_free = f.source_in_target.small_in_free_m + f.target_in_source.small_in_free_m;
-  f.small_conflict_share = (small_free + 0.5) / (small_free + small_same + 1);
+  add_piece_figures(f);
   return f;
+}
+
+void Evaluator::add_piece_figures(Figures& f) {
+  const auto both_ways = [&](Piece kind) {
+    const PieceMeeting& there = f.source_in_target.pieces[static_cast<std::size_t>(kind)];
+    const PieceMeeting& back = f.target_in_source.pieces[static_cast<std::size_t>(kind)];
+    return share(there.in_free_m + back.in_free_m + 0.5, there.same_side_m + back.same_side_m + 0.5);
+  };
+  const auto far_of = [](const WallMeeting& met) {
+    const PieceMeeting& legs = met.pieces[static_cast<std::size_t>(Piece::kLegs)];
+    return share(met.far_in_free_m - legs.far_in_free_m, met.same_side_m - legs.same_side_m + 1);
+  };
+  const auto furniture_of = [](const WallMeeting& met) {
+    const PieceMeeting& furniture = met.pieces[static_cast<std::size_t>(Piece::kFurniture)];
+    return share(furniture.in_free_m, furniture.same_side_m + 1);
+  };
+  f.both_far_conflict_share = std::min(far_of(f.source_in_target), far_of(f.target_in_source));
+  f.furniture_conflict_share = both_ways(Piece::kFurniture);
+  f.both_furniture_conflict_share = std::min(furniture_of(f.source_in_target), furniture_of(f.target_in_source));
+  f.fittings_conflict_share = both_ways(Piece::kFittings);
 }
 
 Figures Evaluator::figures(const Pose2& target_from_source, int num_threads) const {

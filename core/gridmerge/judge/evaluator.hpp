@@ -1,5 +1,6 @@
 #pragma once
 /// The one Evaluator: the same figures for any pose, whoever proposed it.
+#include <array>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -22,17 +23,23 @@ struct EvaluatorOptions {
   void describe(OptionList& list);
 };
 
+/// The part of a WallMeeting that is of one kind of pieces [m].
+struct PieceMeeting {
+  double same_side_m = 0;
+  double in_free_m = 0;
+  double far_in_free_m = 0;
+};
+
 /// What the walls of one map meet in the other. Lengths [m]: cells times resolution, so a wall two cells thick counts
 /// twice.
 struct WallMeeting {
   double all_m = 0;              ///< every wall cell
   double confirmed_m = 0;        ///< a wall of the other map lies within the tolerance ...
   double same_side_m = 0;        ///< ... and was seen from the same side
-  double small_same_side_m = 0;  ///< ... and is of a piece less than two metres wide, as furniture is
   double in_free_m = 0;          ///< stands in the other map's free space, beyond the tolerance of any wall
   double far_in_free_m = 0;      ///< of in_free_m: farther than three tolerances from any wall, so no mere drift
-  double small_in_free_m = 0;    ///< of in_free_m: of a piece less than two metres wide
   double unseen_m = 0;           ///< the rest: the other map does not know
+  std::array<PieceMeeting, kPieceKinds> pieces;  ///< same_side_m, in_free_m and far_in_free_m by Piece
 };
 
 /// Everything by which a pose is judged. Swap the maps and invert the pose, and it stays: exactly but for the cell by
@@ -48,16 +55,17 @@ struct Figures {
   double conflict_share = 0;      ///< in_free_m / (in_free_m + same_side_m), both ways
   double far_conflict_share = 0;  ///< far_in_free_m / (far_in_free_m + same_side_m), both ways
   double same_side_share = 0;     ///< same_side_m / confirmed_m, both ways
-  /// The lesser of far_in_free_m / (far_in_free_m + same_side_m) of the two ways: a plan lacks the furniture, but what
-  /// each map has where the other is free was moved, or is of another place.
-  double both_far_conflict_share = 0;
-  /// Of the small pieces alone, in_free / (in_free + same_side), both ways, with half a metre more of each: where there
-  /// are none, nothing is known.
-  double small_conflict_share = 0;
+  // By pieces. "Both": the lesser of the two ways, with a metre of agreement added. A plan lacks the furniture, but what
+  // each map has where the other is free was moved, or is of another place. The others: both ways taken together, with
+  // half a metre more of either, so that where there are no such pieces nothing is known.
+  double both_far_conflict_share = 0;        ///< far_in_free / (far_in_free + same_side) of all but legs
+  double furniture_conflict_share = 0;       ///< in_free / (in_free + same_side) of furniture
+  double both_furniture_conflict_share = 0;  ///< the same
+  double fittings_conflict_share = 0;        ///< the same of fittings
 
   // With every patch shifted by itself (elastic.hpp).
   double elastic_conflict_share = 0;  ///< in_free_m / (in_free_m + same_side_m), both ways
-  double elastic_roughness_m = 0;     ///< how far the shifts of neighbouring patches differ, on average, both ways
+  double elastic_roughness_m = 0;     ///< of walls and fittings, on average, both ways: how far neighbours differ
 
   // Cell by cell, source cells read on the target's nearest cells.
   double overlap_area_m2 = 0;     ///< known in both
@@ -103,6 +111,7 @@ class Evaluator {
   [[nodiscard]] Figures wall_figures(const Pose2& target_from_source, std::size_t every) const;
   [[nodiscard]] WallMeeting meet(const SidedMap& fixed, const SidedMap& moving, const Pose2& fixed_from_moving,
                                  std::size_t every) const;
+  static void add_piece_figures(Figures& figures);
   void add_cell_figures(Figures& figures, const Pose2& local) const;
   [[nodiscard]] double psi_cells(const Pose2& local, CellState state) const;
 

@@ -11,10 +11,19 @@
 
 namespace gridmerge {
 
+/// What a wall is part of, by how wide the piece of occupied cells is.
+enum class Piece : std::uint8_t {
+  kLegs,       ///< less than 0.4 m: of chairs and tables, people, specks; they are elsewhere every day
+  kFurniture,  ///< to 2 m
+  kFittings,   ///< to 4 m: counters, shelves, stubs of wall between doors
+  kWall
+};
+inline constexpr std::size_t kPieceKinds = 4;
+
 struct SidedWall {
   Point2f at;  ///< local frame
   WallSide side;
-  bool small = false;  ///< of a piece less than two metres wide, as furniture is
+  Piece piece = Piece::kWall;
 };
 
 /// Borrows the map.

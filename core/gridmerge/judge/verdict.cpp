@@ -42,27 +42,27 @@ std::optional<WeakDirection> weak_direction(const PoseEstimate& estimate, const 
                        heading < 0 ? heading + 180 : heading};
 }
 
+double log_far(double both_far_conflict_share) { return std::log(both_far_conflict_share + 0.005); }
+
 /// The best pose alone, as if no other came near.
 ConfidenceFigures unrivalled_figures(const Hypothesis& one, const Background& background,
                                      const std::optional<WeakDirection>& weak, double deviations) {
   constexpr double kDecoyDoubt = 0.5;
-  constexpr double kLittleShare = 0.4;
   constexpr double kWeak = -3;       // ln of 5 cm
   constexpr double kFinest = 0.005;  // [m]
   constexpr double kNotKnown = 10;   // [m] what the refinement says of a direction that is not fixed at all
   const Figures& f = one.figures;
   ConfidenceFigures c;
   c.log_lead = std::log(std::max(1.0, f.evidence_m));
-  c.lead = 1;
   c.decoy_doubt = std::max(0.0, kDecoyDoubt - (background.decoy ? background.decoy->log_ratio() : 0));
   c.log_deviations = std::log(std::max(0.1, deviations));
-  c.both_far_conflict = f.both_far_conflict_share;
-  c.log_both_far = std::log(f.both_far_conflict_share + 0.005);
-  c.small_conflict = f.small_conflict_share;
+  c.log_both_far = log_far(f.both_far_conflict_share);
+  c.furniture = f.furniture_conflict_share;
+  c.both_furniture = f.both_furniture_conflict_share;
+  c.fittings = f.fittings_conflict_share;
   c.elastic_gain = f.conflict_share - f.elastic_conflict_share;
   c.roughness = f.elastic_roughness_m;
   c.log_overlap_share = std::log(std::max(0.01, f.overlap_share));
-  c.little_share = std::max(0.0, kLittleShare - f.overlap_share);
   c.log_weak = std::log(std::max(kFinest, weak ? weak->deviation_m : kNotKnown));
   c.weak_direction = std::max(0.0, c.log_weak - kWeak);
   return c;
@@ -75,12 +75,20 @@ ConfidenceFigures rivalled_figures(ConfidenceFigures c, const std::vector<Hypoth
   const std::size_t rival = strongest_rival(ranked);
   const double rival_m = rival < ranked.size() ? std::max(0.0, ranked[rival].figures.evidence_m) : 0;
   c.log_lead = std::log(std::max(1.0, best_m - rival_m));
-  c.lead = std::max(0.0, 1 - rival_m / best_m);
   for (std::size_t i = 1; i < ranked.size(); ++i) {
     if (ranked[i].figures.conflict_share < kSpotless) {
       c.spotless_rival = std::max(c.spotless_rival, ranked[i].figures.evidence_m / best_m);
     }
   }
+  return c;
+}
+
+/// As if nothing were known of what stands between the walls.
+ConfidenceFigures unfurnished_figures(ConfidenceFigures c) {
+  c.furniture = 0.5;
+  c.both_furniture = 0;
+  c.fittings = 0.5;
+  c.log_both_far = log_far(0);
   return c;
 }
 
@@ -134,7 +142,7 @@ std::string to_string(Outcome outcome) {
   return "declined";
 }
 
-std::vector<Strictness> degrees_of_strictness() { return {{"cautious", 0.97}, {"normal", 0.7}, {"eager", 0.6}}; }
+std::vector<Strictness> degrees_of_strictness() { return {{"cautious", 0.97}, {"normal", 0.75}, {"eager", 0.65}}; }
 
 double VerdictOptions::needed_confidence() const {
   if (min_confidence > 0) {
@@ -148,21 +156,20 @@ double VerdictOptions::needed_confidence() const {
 
 // configs/learned/verdict.yaml; a test holds the two together.
 ConfidenceWeights VerdictOptions::learned_weights() {
-  return {.bias = 9.4668,
-          .per = {.log_lead = 0.2578,
-                  .lead = 2.2477,
-                  .spotless_rival = -2.3019,
-                  .decoy_doubt = -2.8854,
-                  .log_deviations = -4.183,
-                  .both_far_conflict = -12.309,
-                  .log_both_far = -0.7593,
-                  .small_conflict = -4.6146,
-                  .elastic_gain = 18.4173,
-                  .roughness = -7.4822,
-                  .log_overlap_share = 0.9609,
-                  .little_share = -7.1626,
-                  .log_weak = 0.8278,
-                  .weak_direction = -2.0185}};
+  return {.bias = 7.5258,
+          .per = {.log_lead = 0.7395,
+                  .spotless_rival = -2.2318,
+                  .decoy_doubt = -3.0245,
+                  .log_deviations = -3.4856,
+                  .log_both_far = -0.8022,
+                  .furniture = -2.654,
+                  .both_furniture = -5.4827,
+                  .fittings = -2.7271,
+                  .elastic_gain = 20.5403,
+                  .roughness = -3.9546,
+                  .log_overlap_share = 1.5144,
+                  .log_weak = 0.8615,
+                  .weak_direction = -1.9814}};
 }
 
 void VerdictOptions::describe(OptionList& list) {
@@ -247,6 +254,11 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
   // How sure one could be if no other pose came near: what is missing then is missing in the maps.
   const double unrivalled = best.evidence_m > 0 ? confidence_of(alone, o.weights) : 0;
   const double needed = o.needed_confidence();
+  constexpr double kPlausible = 0.5;    // of a pose alone: below, nothing is worth a doubt
+  constexpr double kRefurnished = 0.3;  // of the furniture
+  // The walls would do, but what stands between them is elsewhere: another storey of the building, or a rearranged one.
+  const bool refurnished = best.evidence_m > 0 && best.furniture_conflict_share > kRefurnished && unrivalled < needed &&
+                           confidence_of(unfurnished_figures(alone), o.weights) >= std::max(kPlausible, needed);
 
   const std::string agreeing = fixed(same_side_m(best), 1) + " m of wall agree, " + fixed(in_free_m(best), 1) +
                                " m stand in the other's free space (" + percent(best.conflict_share) + "), over " +
@@ -262,7 +274,6 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
   std::vector<std::string> nothing;
   std::vector<std::string> doubts;
   constexpr double kAsClean = 0.08;
-  constexpr double kPlausible = 0.5;  // of a pose alone: below, nothing is worth a doubt
   if (best.evidence_m <= 0) {
     nothing.push_back("more walls stand in free space than on walls: " + fixed(in_free_m(best), 1) + " m against " +
                       fixed(same_side_m(best), 1) + " m");
@@ -298,7 +309,7 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
   }
   const bool rivalled = !as_good.empty() || !spotless.empty();
   // Where the best and another fit without conflict, as in a bare corridor, which of them is in doubt, not the overlap.
-  if (unrivalled < std::min(kPlausible, needed) && !(rivalled && is_spotless(best, o))) {
+  if (unrivalled < std::min(kPlausible, needed) && !(rivalled && is_spotless(best, o)) && !refurnished) {
     nothing.push_back("too little speaks for an overlap: confidence " + fixed(v.confidence, 2) + ", and " +
                       fixed(unrivalled, 2) + " if no other pose came near; " + fixed(needed, 2) + " wanted");
   }
@@ -307,7 +318,10 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
   } else if (v.confidence < needed && nothing.empty()) {
     const std::string wanted = "confidence " + fixed(v.confidence, 2) + " of " + fixed(needed, 2) + " wanted, " +
                                fixed(unrivalled, 2) + " if no other pose came near";
-    doubts.push_back(rival_at < ranked.size() ? "not sure enough while another pose fits as well as it does: " +
+    doubts.push_back(refurnished ? "the walls agree, but " + percent(best.furniture_conflict_share) +
+                                       " of the furniture stands where the other map is free: another storey, or much "
+                                       "was moved; " + wanted
+                     : rival_at < ranked.size() ? "not sure enough while another pose fits as well as it does: " +
                                                     in_words({&ranked[rival_at]}, first) + "; " + wanted
                                               : "not sure enough: " + wanted);
   }

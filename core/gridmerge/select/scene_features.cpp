@@ -73,9 +73,10 @@ int dominant_directions(const std::vector<double>& spectrum) {
 }
 
 double share_in_small_pieces(const PreparedMap& map) {
-  constexpr double kSmall = 1;  // [m]
-  const std::vector<bool> small = in_small_pieces(map, kSmall);
-  return static_cast<double>(std::count(small.begin(), small.end(), true)) / static_cast<double>(small.size());
+  constexpr float kSmall = 1;  // [m]
+  const std::vector<float> widths_m = piece_widths_m(map);
+  const auto small = std::count_if(widths_m.begin(), widths_m.end(), [](float width_m) { return width_m < kSmall; });
+  return static_cast<double>(small) / static_cast<double>(widths_m.size());
 }
 
 double second_peak(const PreparedMap& map) {

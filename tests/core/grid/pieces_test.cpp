@@ -9,7 +9,7 @@
 namespace gridmerge {
 namespace {
 
-TEST(Pieces, TellsSmallOnesFromWalls) {
+TEST(Pieces, AreAsWideAsTheirBoxOnTheGrid) {
   // A wall of twelve cells, a post, and a slanted piece of three cells that touch by their corners only.
   const OccupancyGrid grid = text_map(
       {
@@ -22,20 +22,20 @@ TEST(Pieces, TellsSmallOnesFromWalls) {
       },
       0.5);
   const PreparedMap map(grid, 0.5);
-  const std::vector<bool> small = in_small_pieces(map, 2);
-  ASSERT_EQ(small.size(), 16U);
-  EXPECT_EQ(std::count(small.begin(), small.end(), true), 4);
-  for (std::size_t i = 0; i < small.size(); ++i) {
+  const std::vector<float> widths_m = piece_widths_m(map);
+  ASSERT_EQ(widths_m.size(), 16U);
+  EXPECT_EQ(std::count(widths_m.begin(), widths_m.end(), 6.0F), 12);  // the wall
+  EXPECT_EQ(std::count(widths_m.begin(), widths_m.end(), 1.5F), 3);   // the slanted one
+  EXPECT_EQ(std::count(widths_m.begin(), widths_m.end(), 0.5F), 1);   // the post
+  for (std::size_t i = 0; i < widths_m.size(); ++i) {
     const bool of_the_wall = map.walls()[i].at.y_m < map.walls().back().at.y_m - 1.9F;  // the lowest row
-    EXPECT_EQ(small[i], !of_the_wall) << i;
+    EXPECT_EQ(widths_m[i] == 6.0F, of_the_wall) << i;
   }
-  const std::vector<bool> finer = in_small_pieces(map, 1);
-  EXPECT_EQ(std::count(finer.begin(), finer.end(), true), 1);  // the post alone
 }
 
 TEST(Pieces, ThereAreNoneWithoutWalls) {
   const PreparedMap map(text_map({"...", "..."}), 1);
-  EXPECT_TRUE(in_small_pieces(map, 1).empty());
+  EXPECT_TRUE(piece_widths_m(map).empty());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -143,6 +144,82 @@ TEST(Evaluator, TellsWallsFarOutInFreeSpaceFromThoseThatDriftMayHavePutThere) {
   EXPECT_EQ(source_at(4).far_in_free_m, 1);
   EXPECT_EQ(maps.figures({3, 0, 0}).far_conflict_share, 0);
   EXPECT_EQ(maps.figures({4, 0, 0}).far_conflict_share, 1);
+}
+
+/// A room of 6 m by 5 m in 0.1 m cells, with blocks standing in it: lower left corner and side, in cells.
+OccupancyGrid room_with(const std::vector<std::array<int, 3>>& blocks) {
+  OccupancyGrid grid = unknown_grid({.width = 60, .height = 50, .resolution_m = 0.1, .map_from_grid = {}});
+  for (int row = 0; row < 50; ++row) {
+    for (int column = 0; column < 60; ++column) {
+      const bool border = column == 0 || column == 59 || row == 0 || row == 49;
+      const bool block = std::any_of(blocks.begin(), blocks.end(), [&](const std::array<int, 3>& one) {
+        return column >= one[0] && column < one[0] + one[2] && row >= one[1] && row < one[1] + one[2];
+      });
+      grid.at({column, row}) = border || block ? kOccupied : kFree;
+    }
+  }
+  return grid;
+}
+Figures at_home(const OccupancyGrid& a, const OccupancyGrid& b) {
+  const Drawn maps(a, b);
+  return Evaluator(maps.target, maps.source, EvaluatorOptions{}).figures({});
+}
+const std::array<int, 3> kCupboard = {10, 10, 10};
+const std::array<int, 3> kCounter = {25, 8, 25};
+
+TEST(Evaluator, FurnitureElsewhereSpeaksAgainstAPoseThatItsWallsFit) {
+  const OccupancyGrid here = room_with({kCupboard});
+  const OccupancyGrid elsewhere = room_with({{40, 30, 10}});
+  const Figures same = at_home(here, here);
+  const Figures moved = at_home(here, elsewhere);
+  EXPECT_LT(same.furniture_conflict_share, 0.2);
+  EXPECT_EQ(same.both_furniture_conflict_share, 0);
+  EXPECT_GT(moved.furniture_conflict_share, 0.8);
+  EXPECT_GT(moved.both_furniture_conflict_share, 0.6);
+  EXPECT_GT(moved.both_far_conflict_share, 0.1);
+}
+
+TEST(Evaluator, LegsElsewhereAreNoFurnitureElsewhere) {
+  const OccupancyGrid here = room_with({kCupboard, {30, 30, 2}, {34, 30, 2}, {30, 34, 2}, {34, 34, 2}});
+  const OccupancyGrid pushed = room_with({kCupboard, {40, 20, 2}, {44, 20, 2}, {40, 24, 2}, {44, 24, 2}});
+  const Figures f = at_home(here, pushed);
+  EXPECT_GT(f.conflict_share, 0);
+  EXPECT_LT(f.furniture_conflict_share, 0.2);
+  EXPECT_EQ(f.both_furniture_conflict_share, 0);
+  EXPECT_EQ(f.both_far_conflict_share, 0);
+}
+
+TEST(Evaluator, WhatAPlanLacksStandsInItsFreeSpaceOneWayOnly) {
+  const Figures f = at_home(room_with({}), room_with({kCupboard}));
+  EXPECT_GT(f.furniture_conflict_share, 0.8);
+  EXPECT_EQ(f.both_furniture_conflict_share, 0);
+  EXPECT_EQ(f.both_far_conflict_share, 0);
+}
+
+TEST(Evaluator, OfPiecesThatAreNotThereNothingIsKnown) {
+  const Figures bare = at_home(room_with({}), room_with({}));
+  EXPECT_NEAR(bare.furniture_conflict_share, 0.5, 1e-12);
+  EXPECT_NEAR(bare.fittings_conflict_share, 0.5, 1e-12);
+  const Figures fitted = at_home(room_with({kCounter}), room_with({kCounter}));
+  EXPECT_NEAR(fitted.furniture_conflict_share, 0.5, 1e-12);
+  EXPECT_LT(fitted.fittings_conflict_share, 0.1);
+}
+
+TEST(Evaluator, PiecesAddUpToTheWhole) {
+  const Drawn maps(room_with({kCupboard, {30, 40, 2}}), room_with({kCounter}));
+  const Figures f = Evaluator(maps.target, maps.source, EvaluatorOptions{}).figures({0.3, -0.2, 0.1});
+  for (const WallMeeting& met : {f.source_in_target, f.target_in_source}) {
+    PieceMeeting sum;
+    for (const PieceMeeting& piece : met.pieces) {
+      sum.same_side_m += piece.same_side_m;
+      sum.in_free_m += piece.in_free_m;
+      sum.far_in_free_m += piece.far_in_free_m;
+    }
+    EXPECT_NEAR(sum.same_side_m, met.same_side_m, 1e-9);
+    EXPECT_NEAR(sum.in_free_m, met.in_free_m, 1e-9);
+    EXPECT_NEAR(sum.far_in_free_m, met.far_in_free_m, 1e-9);
+    EXPECT_GT(met.in_free_m, 0);
+  }
 }
 
 TEST(Evaluator, AWallSeenFromTheOtherSideIsConfirmedButDoesNotSpeakForThePose) {

@@ -33,7 +33,9 @@ Hypothesis hypothesis(double same_side_m, double in_free_m, double overlap_m2 = 
   f.conflict_share = in_free_m > 0 ? in_free_m / (in_free_m + same_side_m) : 0;
   f.far_conflict_share = in_free_m > 0 ? 0.5 * in_free_m / (0.5 * in_free_m + same_side_m) : 0;
   f.both_far_conflict_share = f.far_conflict_share;
-  f.small_conflict_share = 0.05;
+  f.furniture_conflict_share = 0.05;
+  f.both_furniture_conflict_share = 0;
+  f.fittings_conflict_share = 0.05;
   f.same_side_share = 0.9;
   f.elastic_conflict_share = 0.7 * f.conflict_share;
   f.elastic_roughness_m = 0.05;
@@ -209,19 +211,19 @@ TEST(Verdict, ConfidenceDecidesBetweenDoubtAndNothing) {
   }
   options.min_lead = 0;
   options.spotless_conflict_share = 0;
-  options.weights.bias = -1;
-  options.weights.per.lead = 4;
-  // With all of the lead: 1 / (1 + exp(-3)) = 0.95; with half of it 0.73.
+  options.weights.bias = -5.7;
+  options.weights.per.log_lead = 2;
+  // With a lead of 78 m: 1 / (1 + exp(5.7 - 2 ln 78)) = 0.95; with one of 40 m 0.84.
   options.min_confidence = 0.9;
   EXPECT_EQ(judged({hypothesis(80, 1)}, kChance, options).outcome, Outcome::kMerged);
   const Verdict half = judged({hypothesis(80, 0), hypothesis(40, 0)}, kChance, options);
-  EXPECT_NEAR(half.confidence, 0.731, 1e-3);
+  EXPECT_NEAR(half.confidence, 0.843, 1e-3);
   EXPECT_EQ(half.outcome, Outcome::kAmbiguous);  // it is the rival that is in the way
   options.min_confidence = 0.96;
   const Verdict never = judged({hypothesis(80, 1)}, kChance, options);
   EXPECT_EQ(never.outcome, Outcome::kAmbiguous);  // even without a rival
   EXPECT_THAT(never.reasons.front(), AllOf(HasSubstr("not sure enough"), HasSubstr("confidence 0.95 of 0.96 wanted")));
-  options.weights.bias = -5;
+  options.weights.bias = -10;
   const Verdict nothing = judged({hypothesis(80, 1)}, kChance, options);
   EXPECT_EQ(nothing.outcome, Outcome::kNoOverlap);
   EXPECT_THAT(nothing.reasons.front(), AllOf(HasSubstr("too little speaks for an overlap"), HasSubstr("0.96 wanted")));
@@ -264,16 +266,45 @@ TEST(Verdict, NeverMergesWhereAGateIsBroken) {
   EXPECT_LT(merged, 18000);
 }
 
+/// Another storey: the same walls, everything between them elsewhere.
+Hypothesis other_storey() {
+  Hypothesis one = hypothesis(150, 12);
+  one.figures.furniture_conflict_share = 0.9;
+  one.figures.both_furniture_conflict_share = 0.6;
+  one.figures.both_far_conflict_share = 0.05;
+  one.figures.overlap_share = 0.9;
+  one.target_from_source.covariance = 1e-6 * PoseCovariance::Identity();
+  return one;
+}
+const RandomLevel kFurnishedChance{.mean_m = -20, .deviation_m = 35, .poses = 48};
+
+TEST(Verdict, WallsThatAgreeAroundOtherFurnitureAreADoubtAndNoMissingOverlap) {
+  const Verdict v = judged({other_storey()}, kFurnishedChance, {});
+  EXPECT_EQ(v.outcome, Outcome::kAmbiguous);
+  EXPECT_THAT(v.reasons.front(), AllOf(HasSubstr("90 % of the furniture"), HasSubstr("another storey")));
+  EXPECT_LE(v.confidence, VerdictOptions{}.needed_confidence());
+}
+
+TEST(Verdict, OtherFurnitureIsNotBlamedForWhatTheWallsLack) {
+  Hypothesis poor = other_storey();
+  poor.figures.elastic_conflict_share = poor.figures.conflict_share + 0.2;
+  poor.figures.elastic_roughness_m = 0.6;
+  const Verdict v = judged({poor}, kFurnishedChance, {});
+  EXPECT_EQ(v.outcome, Outcome::kNoOverlap);
+  EXPECT_THAT(v.reasons, Not(Contains(HasSubstr("storey"))));
+}
+
 TEST(Confidence, LearnedWeightsPointTheRightWay) {
   const ConfidenceWeights weights = VerdictOptions::learned_weights();
   using F = ConfidenceFigures;
   for (const auto& [figure, sign] : {std::pair{&F::log_lead, 1},
-                                     {&F::lead, 1},
                                      {&F::spotless_rival, -1},
                                      {&F::decoy_doubt, -1},
                                      {&F::log_both_far, -1},
-                                     {&F::small_conflict, -1},
-                                     {&F::little_share, -1}}) {
+                                     {&F::furniture, -1},
+                                     {&F::both_furniture, -1},
+                                     {&F::fittings, -1},
+                                     {&F::roughness, -1}}) {
     EXPECT_GT(sign * (weights.per.*figure), 0);
   }
 }
@@ -281,27 +312,25 @@ TEST(Confidence, LearnedWeightsPointTheRightWay) {
 /// A flat seen twice, as the drawn ones are; then what speaks against it.
 TEST(Confidence, IsHighForAClearPoseAndLowForADoubtfulOne) {
   const ConfidenceFigures clear{.log_lead = 4.4,
-                                .lead = 0.8,
                                 .spotless_rival = 0.1,
                                 .decoy_doubt = 0,
                                 .log_deviations = 1.3,
-                                .both_far_conflict = 0,
                                 .log_both_far = -5.3,
-                                .small_conflict = 0.05,
+                                .furniture = 0.05,
+                                .both_furniture = 0,
+                                .fittings = 0.05,
                                 .elastic_gain = 0.01,
                                 .roughness = 0.08,
                                 .log_overlap_share = -0.2,
-                                .little_share = 0,
                                 .log_weak = -4,
                                 .weak_direction = 0};
   const ConfidenceWeights weights = VerdictOptions::learned_weights();
   EXPECT_GT(confidence_of(clear, weights), 0.9);
   ConfidenceFigures doubtful = clear;
   doubtful.decoy_doubt = 0.6;
-  doubtful.lead = 0.2;
   doubtful.log_lead = 2.5;
-  doubtful.small_conflict = 0.4;
-  doubtful.both_far_conflict = 0.04;
+  doubtful.furniture = 0.4;
+  doubtful.both_furniture = 0.1;
   doubtful.log_both_far = -3.1;
   EXPECT_LT(confidence_of(doubtful, weights), 0.5);
 }
@@ -309,11 +338,11 @@ TEST(Confidence, IsHighForAClearPoseAndLowForADoubtfulOne) {
 TEST(Confidence, IsALogisticFunctionOfItsTerms) {
   ConfidenceWeights weights;
   weights.bias = 0.5;
-  weights.per.lead = 2;
-  weights.per.little_share = -3;
+  weights.per.log_lead = 2;
+  weights.per.furniture = -3;
   ConfidenceFigures figures;
-  figures.lead = 0.4;
-  figures.little_share = 0.1;
+  figures.log_lead = 0.4;
+  figures.furniture = 0.1;
   EXPECT_NEAR(confidence_of(figures, weights), 1 / (1 + std::exp(-(0.5 + 0.8 - 0.3))), 1e-12);
   std::vector<std::string> names;
   for (const ConfidenceTerm& term : confidence_terms()) {
