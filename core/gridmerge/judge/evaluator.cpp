@@ -222,8 +222,11 @@ Figures Evaluator::figures(const Pose2& target_from_source, int num_threads) con
   parallel_for(parts.size(), num_threads, [&](std::size_t i, std::size_t) { parts[i](); });
 
   f.elastic_conflict_share = share(there.in_free_m + back.in_free_m, there.same_side_m + back.same_side_m);
-  const double beside_m = there.beside_m + back.beside_m;
-  f.elastic_roughness_m = beside_m > 0 ? (there.shift_m + back.shift_m) / beside_m : 0;
+  // As rough as two places that are not the same, where there is little to tell by.
+  constexpr double kStrange_m = 0.4;
+  constexpr double kLittle_m = 2;
+  f.elastic_roughness_m = (there.shift_m + back.shift_m + kStrange_m * kLittle_m) /
+                          (there.beside_m + back.beside_m + kLittle_m);
   f.psi_cells = psi_open + psi_wall;                                                     // Eq. 2.6
   f.delta = f.psi_cells + options_.c_lock * (f.disagreement_cells - f.agreement_cells);  // Eq. 2.5
   return f;

@@ -156,20 +156,20 @@ double VerdictOptions::needed_confidence() const {
 
 // configs/learned/verdict.yaml; a test holds the two together.
 ConfidenceWeights VerdictOptions::learned_weights() {
-  return {.bias = 7.5258,
-          .per = {.log_lead = 0.7395,
-                  .spotless_rival = -2.2318,
-                  .decoy_doubt = -3.0245,
-                  .log_deviations = -3.4856,
-                  .log_both_far = -0.8022,
-                  .furniture = -2.654,
-                  .both_furniture = -5.4827,
-                  .fittings = -2.7271,
-                  .elastic_gain = 20.5403,
-                  .roughness = -3.9546,
-                  .log_overlap_share = 1.5144,
-                  .log_weak = 0.8615,
-                  .weak_direction = -1.9814}};
+  return {.bias = 6.5387,
+          .per = {.log_lead = 0.7412,
+                  .spotless_rival = -2.457,
+                  .decoy_doubt = -3.2591,
+                  .log_deviations = -3.2135,
+                  .log_both_far = -0.8463,
+                  .furniture = -2.959,
+                  .both_furniture = -5.43,
+                  .fittings = -2.5649,
+                  .elastic_gain = 21.2513,
+                  .roughness = -2.9506,
+                  .log_overlap_share = 1.4235,
+                  .log_weak = 0.7913,
+                  .weak_direction = -1.8244}};
 }
 
 void VerdictOptions::describe(OptionList& list) {

@@ -205,6 +205,20 @@ TEST(Evaluator, OfPiecesThatAreNotThereNothingIsKnown) {
   EXPECT_LT(fitted.fittings_conflict_share, 0.1);
 }
 
+TEST(Evaluator, WithoutWallsToTellByAPlaceIsAsRoughAsAStrangeOne) {
+  EXPECT_LT(at_home(room_with({}), room_with({})).elastic_roughness_m, 0.05);
+  OccupancyGrid open = room_with({kCupboard});  // its border not yet seen
+  for (int row = 0; row < open.geometry.height; ++row) {
+    for (int column = 0; column < open.geometry.width; ++column) {
+      const bool border = column == 0 || column == open.geometry.width - 1 || row == 0 || row == open.geometry.height - 1;
+      open.at({column, row}) = border ? kUnknown : open.at({column, row});
+    }
+  }
+  const Figures f = at_home(open, open);
+  EXPECT_EQ(f.conflict_share, 0);
+  EXPECT_NEAR(f.elastic_roughness_m, 0.4, 1e-12);
+}
+
 TEST(Evaluator, PiecesAddUpToTheWhole) {
   const Drawn maps(room_with({kCupboard, {30, 40, 2}}), room_with({kCounter}));
   const Figures f = Evaluator(maps.target, maps.source, EvaluatorOptions{}).figures({0.3, -0.2, 0.1});
