@@ -25,7 +25,8 @@ double best_climb(const WallFit& fitness, std::vector<ScoredPose> poses, double 
   const std::vector<ScoredPose> starts = distinct_poses(std::move(poses), {1, radians(6)}, kClimbed);
   std::vector<double> tops(starts.size());
   parallel_for(starts.size(), num_threads, [&](std::size_t i, std::size_t) {
-    tops[i] = climb(fitness, starts[i].pose, {resolution_m, radians(2)}, {resolution_m / 4, radians(0.5)}, window).score;
+    tops[i] =
+        climb(fitness, starts[i].pose, {resolution_m, radians(2)}, {resolution_m / 4, radians(0.5)}, window).score;
   });
   return std::accumulate(tops.begin(), tops.end(), 0.0, [](double a, double b) { return std::max(a, b); });
 }

@@ -165,7 +165,8 @@ class Search {
     }
     if (decoy_ && !decoy_->stopped()) {
       const double before = background_.decoy ? background_.decoy->own : 0;
-      background_.decoy = {.own = std::max(before, decoy_->fit_of(candidates, context_.num_threads)), .decoy = decoy_->best()};
+      background_.decoy = {.own = std::max(before, decoy_->fit_of(candidates, context_.num_threads)),
+                           .decoy = decoy_->best()};
     }
   }
 

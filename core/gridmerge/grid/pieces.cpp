@@ -45,8 +45,8 @@ class Forest {
   std::vector<std::uint32_t> parent_;
 };
 
-/// Joins the walls whose cells touch. They come row by row, so a wall's neighbours are the one before it and up to three
-/// of the row below: `below` runs along with it.
+/// Joins the walls whose cells touch. They come row by row, so a wall's neighbours are the one before it and up to
+/// three of the row below: `below` runs along with it.
 Forest touching(const std::vector<Cell>& cells) {
   Forest forest(cells.size());
   std::size_t below = 0;

@@ -15,12 +15,12 @@ struct ConfidenceFigures {
   double decoy_doubt = 0;     ///< what DecoyLevel::log_ratio lacks of 0.5
   double log_deviations = 0;  ///< ln of how many standard deviations above random poses, at least 0.1
   // Walls in free space.
-  double log_both_far = 0;        ///< ln of Figures::both_far_conflict_share, 0.005 added: the first of it says most
-  double furniture = 0;           ///< Figures::furniture_conflict_share
-  double both_furniture = 0;      ///< Figures::both_furniture_conflict_share
-  double fittings = 0;            ///< Figures::fittings_conflict_share
-  double elastic_gain = 0;        ///< conflict_share that goes away with every patch shifted by itself
-  double roughness = 0;           ///< Figures::elastic_roughness_m
+  double log_both_far = 0;    ///< ln of Figures::both_far_conflict_share, 0.005 added: the first of it says most
+  double furniture = 0;       ///< Figures::furniture_conflict_share
+  double both_furniture = 0;  ///< Figures::both_furniture_conflict_share
+  double fittings = 0;        ///< Figures::fittings_conflict_share
+  double elastic_gain = 0;    ///< conflict_share that goes away with every patch shifted by itself
+  double roughness = 0;       ///< Figures::elastic_roughness_m
   // How much there is in common.
   double log_overlap_share = 0;  ///< ln of the overlap's share of the smaller map, at least 1 %
   // How well the walls fix the pose.

@@ -150,9 +150,8 @@ WallMeeting Evaluator::meet(const SidedMap& fixed, const SidedMap& moving, const
   }
   met.unseen_m = met.all_m - met.confirmed_m - met.in_free_m;
   const double metres = moving.metres_a_wall * static_cast<double>(every);
-  for (double WallMeeting::*length :
-       {&WallMeeting::all_m, &WallMeeting::confirmed_m, &WallMeeting::same_side_m, &WallMeeting::in_free_m,
-        &WallMeeting::far_in_free_m, &WallMeeting::unseen_m}) {
+  for (double WallMeeting::*length : {&WallMeeting::all_m, &WallMeeting::confirmed_m, &WallMeeting::same_side_m,
+                                      &WallMeeting::in_free_m, &WallMeeting::far_in_free_m, &WallMeeting::unseen_m}) {
     met.*length *= metres;
   }
   for (PieceMeeting& piece : met.pieces) {
@@ -225,8 +224,8 @@ Figures Evaluator::figures(const Pose2& target_from_source, int num_threads) con
   // As rough as two places that are not the same, where there is little to tell by.
   constexpr double kStrange_m = 0.4;
   constexpr double kLittle_m = 2;
-  f.elastic_roughness_m = (there.shift_m + back.shift_m + kStrange_m * kLittle_m) /
-                          (there.beside_m + back.beside_m + kLittle_m);
+  f.elastic_roughness_m =
+      (there.shift_m + back.shift_m + kStrange_m * kLittle_m) / (there.beside_m + back.beside_m + kLittle_m);
   f.psi_cells = psi_open + psi_wall;                                                     // Eq. 2.6
   f.delta = f.psi_cells + options_.c_lock * (f.disagreement_cells - f.agreement_cells);  // Eq. 2.5
   return f;

@@ -33,12 +33,12 @@ struct PieceMeeting {
 /// What the walls of one map meet in the other. Lengths [m]: cells times resolution, so a wall two cells thick counts
 /// twice.
 struct WallMeeting {
-  double all_m = 0;              ///< every wall cell
-  double confirmed_m = 0;        ///< a wall of the other map lies within the tolerance ...
-  double same_side_m = 0;        ///< ... and was seen from the same side
-  double in_free_m = 0;          ///< stands in the other map's free space, beyond the tolerance of any wall
-  double far_in_free_m = 0;      ///< of in_free_m: farther than three tolerances from any wall, so no mere drift
-  double unseen_m = 0;           ///< the rest: the other map does not know
+  double all_m = 0;          ///< every wall cell
+  double confirmed_m = 0;    ///< a wall of the other map lies within the tolerance ...
+  double same_side_m = 0;    ///< ... and was seen from the same side
+  double in_free_m = 0;      ///< stands in the other map's free space, beyond the tolerance of any wall
+  double far_in_free_m = 0;  ///< of in_free_m: farther than three tolerances from any wall, so no mere drift
+  double unseen_m = 0;       ///< the rest: the other map does not know
   std::array<PieceMeeting, kPieceKinds> pieces;  ///< same_side_m, in_free_m and far_in_free_m by Piece
 };
 
@@ -55,9 +55,9 @@ struct Figures {
   double conflict_share = 0;      ///< in_free_m / (in_free_m + same_side_m), both ways
   double far_conflict_share = 0;  ///< far_in_free_m / (far_in_free_m + same_side_m), both ways
   double same_side_share = 0;     ///< same_side_m / confirmed_m, both ways
-  // By pieces. "Both": the lesser of the two ways, with a metre of agreement added. A plan lacks the furniture, but what
-  // each map has where the other is free was moved, or is of another place. The others: both ways taken together, with
-  // half a metre more of either, so that where there are no such pieces nothing is known.
+  // By pieces. "Both": the lesser of the two ways, with a metre of agreement added. A plan lacks the furniture, but
+  // what each map has where the other is free was moved, or is of another place. The others: both ways taken together,
+  // with half a metre more of either, so that where there are no such pieces nothing is known.
   double both_far_conflict_share = 0;        ///< far_in_free / (far_in_free + same_side) of all but legs
   double furniture_conflict_share = 0;       ///< in_free / (in_free + same_side) of furniture
   double both_furniture_conflict_share = 0;  ///< the same
@@ -66,8 +66,8 @@ struct Figures {
   // With every patch shifted by itself (elastic.hpp).
   double elastic_conflict_share = 0;  ///< in_free_m / (in_free_m + same_side_m), both ways
   /// How far the shifts of neighbouring patches differ on average, by their walls and fittings, both ways; with 2 m of
-  /// walls added that differ by 0.4 m, as where two places are not the same: where there is little to tell by, little is
-  /// known.
+  /// walls added that differ by 0.4 m, as where two places are not the same: where there is little to tell by, little
+  /// is known.
   double elastic_roughness_m = 0;
 
   // Cell by cell, source cells read on the target's nearest cells.

@@ -210,7 +210,8 @@ TEST(Evaluator, WithoutWallsToTellByAPlaceIsAsRoughAsAStrangeOne) {
   OccupancyGrid open = room_with({kCupboard});  // its border not yet seen
   for (int row = 0; row < open.geometry.height; ++row) {
     for (int column = 0; column < open.geometry.width; ++column) {
-      const bool border = column == 0 || column == open.geometry.width - 1 || row == 0 || row == open.geometry.height - 1;
+      const bool border =
+          column == 0 || column == open.geometry.width - 1 || row == 0 || row == open.geometry.height - 1;
       open.at({column, row}) = border ? kUnknown : open.at({column, row});
     }
   }
