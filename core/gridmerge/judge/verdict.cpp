@@ -255,7 +255,7 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
   const double unrivalled = best.evidence_m > 0 ? confidence_of(alone, o.weights) : 0;
   const double needed = o.needed_confidence();
   constexpr double kPlausible = 0.5;    // of a pose alone: below, nothing is worth a doubt
-  constexpr double kRefurnished = 0.3;  // of the furniture
+  constexpr double kRefurnished = 0.2;  // of the furniture
   // The walls would do, but what stands between them is elsewhere: another storey of the building, or a rearranged one.
   const bool refurnished = best.evidence_m > 0 && best.furniture_conflict_share > kRefurnished && unrivalled < needed &&
                            confidence_of(unfurnished_figures(alone), o.weights) >= std::max(kPlausible, needed);
