@@ -2,48 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "gridmerge/base/disjoint_sets.hpp"
 
 namespace gridmerge::som {
 namespace {
 
-/// Sets that are united by and by; each is named by its smallest member.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-
-  [[nodiscard]] std::uint32_t name_of(std::uint32_t i) {
-    while (parent_[i] != i) {
-      parent_[i] = parent_[parent_[i]];
-      i = parent_[i];
-    }
-    return i;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = name_of(a);
-    b = name_of(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 /// For each sample, the name of the group of samples whose cells of level 1 touch.
 std::vector<std::uint32_t> touching(const std::vector<WallSample>& samples, const MapLevel& level) {
   constexpr std::uint32_t kNone = 0xffffffffU;
-  const auto cell = [&](float v, double low) {
-    return static_cast<int>((static_cast<double>(v) - low) / level.resolution_m);
-  };
   std::vector<std::uint32_t> sample_in(level.state.size(), kNone);
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
-    const Point2f at = samples[i].at;
-    sample_in[level.offset(cell(at.x_m, level.lower_left.x_m), cell(at.y_m, level.lower_left.y_m))] = i;
+    const auto [column, row] = level.cell_at(samples[i].at);
+    sample_in[level.offset(column, row)] = i;
   }
-  Groups groups(samples.size());
+  DisjointSets groups(samples.size());
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
-    const int column = cell(samples[i].at.x_m, level.lower_left.x_m);
-    const int row = cell(samples[i].at.y_m, level.lower_left.y_m);
+    const auto [column, row] = level.cell_at(samples[i].at);
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
         if (level.contains(column + dx, row + dy) && sample_in[level.offset(column + dx, row + dy)] != kNone) {

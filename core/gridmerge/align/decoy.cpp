@@ -37,14 +37,14 @@ std::vector<ScoredPose> swept(const PoseLattice& lattice, const std::optional<Po
   const auto accept = [&](const LatticePose& at) { return !window || lattice.holds(at); };
   // A fence is narrow: little is saved there, and what lies in it must not be mixed with what does not.
   const Torus torus = window ? Torus::kWhole : Torus::kShared;
-  std::vector<std::vector<ScoredPose>> best_of(static_cast<std::size_t>(lattice.angles()));
+  std::vector<std::optional<ScoredPose>> best_of(static_cast<std::size_t>(lattice.angles()));
   const LatticeScores scores = score_lattice(
       lattice, context,
       [&](const ScoreSurface& surface, std::size_t) {
-        std::vector<ScoredPose>& best = best_of[static_cast<std::size_t>(surface.angle)];
+        std::optional<ScoredPose>& best = best_of[static_cast<std::size_t>(surface.angle)];
         for (const LatticePeak& peak : surface_peaks(surface, 1, accept)) {
           if (torus == Torus::kWhole) {
-            best = {{lattice.pose(peak.at), PoseLattice::fitness(static_cast<double>(peak.score))}};
+            best = ScoredPose{lattice.pose(peak.at), PoseLattice::fitness(static_cast<double>(peak.score))};
             continue;
           }
           // Of the poses that share the place, the best.
@@ -56,8 +56,8 @@ std::vector<ScoredPose> swept(const PoseLattice& lattice, const std::optional<Po
               }
               const Pose2 pose = lattice.pose(at);
               const double score = fitness(pose);
-              if (best.empty() || score > best.front().score) {
-                best = {{pose, score}};
+              if (!best || score > best->score) {
+                best = ScoredPose{pose, score};
               }
             }
           }
@@ -66,8 +66,10 @@ std::vector<ScoredPose> swept(const PoseLattice& lattice, const std::optional<Po
       torus);
   stopped = scores.stopped;
   std::vector<ScoredPose> all;
-  for (const std::vector<ScoredPose>& best : best_of) {
-    all.insert(all.end(), best.begin(), best.end());
+  for (const std::optional<ScoredPose>& best : best_of) {
+    if (best) {
+      all.push_back(*best);
+    }
   }
   return all;
 }

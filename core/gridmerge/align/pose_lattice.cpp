@@ -26,8 +26,8 @@ std::vector<CellWeight> on_cells(const std::vector<ThinnedWall>& walls, const Ma
   std::vector<CellWeight> cells;
   cells.reserve(walls.size());
   for (const auto& [at, weight] : walls) {
-    cells.push_back({static_cast<int>((at.x_m - level.lower_left.x_m) / level.resolution_m),
-                     static_cast<int>((at.y_m - level.lower_left.y_m) / level.resolution_m), whole_weight(weight)});
+    const auto [column, row] = level.cell_at(at);
+    cells.push_back({column, row, whole_weight(weight)});
   }
   return cells;
 }

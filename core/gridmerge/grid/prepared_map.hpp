@@ -50,6 +50,11 @@ struct MapLevel {
   [[nodiscard]] std::size_t offset(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
   }
+  /// The cell that holds a point of the local frame. The point must lie within the level.
+  [[nodiscard]] CellIndex cell_at(Point2f at) const {
+    return {static_cast<int>((at.x_m - lower_left.x_m) / resolution_m),
+            static_cast<int>((at.y_m - lower_left.y_m) / resolution_m)};
+  }
 };
 
 inline constexpr float kFarFromWalls = 1e6F;

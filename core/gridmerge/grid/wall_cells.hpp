@@ -14,8 +14,7 @@ template <typename Sum>
   std::vector<std::int32_t> slot(level.state.size(), -1);
   std::vector<Sum> sums;
   for (const WallPoint& wall : map.walls()) {
-    const int column = static_cast<int>((wall.at.x_m - level.lower_left.x_m) / level.resolution_m);
-    const int row = static_cast<int>((wall.at.y_m - level.lower_left.y_m) / level.resolution_m);
+    const auto [column, row] = level.cell_at(wall.at);
     std::int32_t& index = slot[level.offset(column, row)];
     if (index < 0) {
       index = static_cast<std::int32_t>(sums.size());

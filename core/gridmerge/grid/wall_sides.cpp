@@ -37,8 +37,7 @@ std::vector<std::uint8_t> sides_within(const PreparedMap& map, const std::vector
     const auto bits =
         side.known ? static_cast<std::uint8_t>((1 << octant) | (1 << ((octant + 1) & 7)) | (1 << ((octant + 7) & 7)))
                    : std::uint8_t{0xff};
-    const int column = static_cast<int>((wall.at.x_m - level.lower_left.x_m) / level.resolution_m);
-    const int row = static_cast<int>((wall.at.y_m - level.lower_left.y_m) / level.resolution_m);
+    const auto [column, row] = level.cell_at(wall.at);
     for (int dy = std::max(-reach, -row); dy <= std::min(reach, level.height - 1 - row); ++dy) {
       const int half = half_width[static_cast<std::size_t>(std::abs(dy))];
       const int low = std::max(0, column - half);

@@ -1,5 +1,6 @@
 #include "gridmerge/judge/elastic.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <utility>

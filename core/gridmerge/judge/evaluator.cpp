@@ -52,6 +52,27 @@ double mean_manhattan(const MapLevel& fixed, const MapLevel& moving, const Pose2
 
 double share(double part, double rest) { return part + rest > 0 ? part / (part + rest) : 0; }
 
+/// From how walls meet, what each kind of pieces says.
+void add_piece_figures(Figures& f) {
+  const auto both_ways = [&](Piece kind) {
+    const PieceMeeting& there = f.source_in_target.pieces[static_cast<std::size_t>(kind)];
+    const PieceMeeting& back = f.target_in_source.pieces[static_cast<std::size_t>(kind)];
+    return share(there.in_free_m + back.in_free_m + 0.5, there.same_side_m + back.same_side_m + 0.5);
+  };
+  const auto far_of = [](const WallMeeting& met) {
+    const PieceMeeting& legs = met.pieces[static_cast<std::size_t>(Piece::kLegs)];
+    return share(met.far_in_free_m - legs.far_in_free_m, met.same_side_m - legs.same_side_m + 1);
+  };
+  const auto furniture_of = [](const WallMeeting& met) {
+    const PieceMeeting& furniture = met.pieces[static_cast<std::size_t>(Piece::kFurniture)];
+    return share(furniture.in_free_m, furniture.same_side_m + 1);
+  };
+  f.both_far_conflict_share = std::min(far_of(f.source_in_target), far_of(f.target_in_source));
+  f.furniture_conflict_share = both_ways(Piece::kFurniture);
+  f.both_furniture_conflict_share = std::min(furniture_of(f.source_in_target), furniture_of(f.target_in_source));
+  f.fittings_conflict_share = both_ways(Piece::kFittings);
+}
+
 }  // namespace
 
 void EvaluatorOptions::describe(OptionList& list) {
@@ -184,26 +205,6 @@ Figures Evaluator::wall_figures(const Pose2& target_from_source, std::size_t eve
   f.same_side_share = confirmed > 0 ? same_side / confirmed : 0;
   add_piece_figures(f);
   return f;
-}
-
-void Evaluator::add_piece_figures(Figures& f) {
-  const auto both_ways = [&](Piece kind) {
-    const PieceMeeting& there = f.source_in_target.pieces[static_cast<std::size_t>(kind)];
-    const PieceMeeting& back = f.target_in_source.pieces[static_cast<std::size_t>(kind)];
-    return share(there.in_free_m + back.in_free_m + 0.5, there.same_side_m + back.same_side_m + 0.5);
-  };
-  const auto far_of = [](const WallMeeting& met) {
-    const PieceMeeting& legs = met.pieces[static_cast<std::size_t>(Piece::kLegs)];
-    return share(met.far_in_free_m - legs.far_in_free_m, met.same_side_m - legs.same_side_m + 1);
-  };
-  const auto furniture_of = [](const WallMeeting& met) {
-    const PieceMeeting& furniture = met.pieces[static_cast<std::size_t>(Piece::kFurniture)];
-    return share(furniture.in_free_m, furniture.same_side_m + 1);
-  };
-  f.both_far_conflict_share = std::min(far_of(f.source_in_target), far_of(f.target_in_source));
-  f.furniture_conflict_share = both_ways(Piece::kFurniture);
-  f.both_furniture_conflict_share = std::min(furniture_of(f.source_in_target), furniture_of(f.target_in_source));
-  f.fittings_conflict_share = both_ways(Piece::kFittings);
 }
 
 Figures Evaluator::figures(const Pose2& target_from_source, int num_threads) const {

@@ -114,7 +114,6 @@ class Evaluator {
   [[nodiscard]] Figures wall_figures(const Pose2& target_from_source, std::size_t every) const;
   [[nodiscard]] WallMeeting meet(const SidedMap& fixed, const SidedMap& moving, const Pose2& fixed_from_moving,
                                  std::size_t every) const;
-  static void add_piece_figures(Figures& figures);
   void add_cell_figures(Figures& figures, const Pose2& local) const;
   [[nodiscard]] double psi_cells(const Pose2& local, CellState state) const;
 

@@ -318,13 +318,16 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
   } else if (v.confidence < needed && nothing.empty()) {
     const std::string wanted = "confidence " + fixed(v.confidence, 2) + " of " + fixed(needed, 2) + " wanted, " +
                                fixed(unrivalled, 2) + " if no other pose came near";
-    doubts.push_back(refurnished ? "the walls agree, but " + percent(best.furniture_conflict_share) +
-                                       " of the furniture stands where the other map is free: another storey, or much "
-                                       "was moved; " +
-                                       wanted
-                     : rival_at < ranked.size() ? "not sure enough while another pose fits as well as it does: " +
-                                                      in_words({&ranked[rival_at]}, first) + "; " + wanted
-                                                : "not sure enough: " + wanted);
+    if (refurnished) {
+      doubts.push_back("the walls agree, but " + percent(best.furniture_conflict_share) +
+                       " of the furniture stands where the other map is free: another storey, or much was moved; " +
+                       wanted);
+    } else if (rival_at < ranked.size()) {
+      doubts.push_back("not sure enough while another pose fits as well as it does: " +
+                       in_words({&ranked[rival_at]}, first) + "; " + wanted);
+    } else {
+      doubts.push_back("not sure enough: " + wanted);
+    }
   }
   if (!spotless.empty()) {
     doubts.push_back("another pose fits without conflict: " + in_words(spotless, first));
