@@ -1,6 +1,8 @@
 #include "gridmerge/align/decoy.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -18,6 +20,47 @@ constexpr std::size_t kMaxPoints = 1500;
 
 /// Cells of 0.2 m, of 0.4 m for larger maps.
 constexpr LatticeOptions kLattice{.angle_step_rad = radians(5), .coarsest_level = 3, .max_cells = 200};
+
+/// Which way a map's walls run, by 5 degrees of a quarter turn; of neighbouring bins some is shared.
+using WallDirections = std::array<double, 18>;
+
+std::size_t direction_bin(double angle_rad) {
+  const double quarters = angle_rad / (kPi / 2);
+  const auto bins = static_cast<double>(WallDirections{}.size());
+  return static_cast<std::size_t>((quarters - std::floor(quarters)) * bins) % WallDirections{}.size();
+}
+
+WallDirections wall_directions(const PreparedMap& map) {
+  WallDirections counts{};
+  for (const WallPoint& wall : map.walls()) {
+    if (wall.surface_normal.x_m != 0 || wall.surface_normal.y_m != 0) {
+      counts[direction_bin(std::atan2(wall.surface_normal.y_m, wall.surface_normal.x_m))] += 1;
+    }
+  }
+  WallDirections smooth{};
+  const std::size_t n = counts.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    smooth[i] = counts[(i + n - 1) % n] + 2 * counts[i] + counts[(i + 1) % n];
+  }
+  return smooth;
+}
+
+/// Of the lattice's angles the third at which the walls of both maps run most alike: where they cross, little fits.
+void keep_the_likely_third(PoseLattice& lattice, const PreparedMap& fixed, const PreparedMap& moving) {
+  const WallDirections of_fixed = wall_directions(fixed);
+  const WallDirections of_moving = wall_directions(moving);
+  WallDirections alike{};
+  for (std::size_t turn = 0; turn < alike.size(); ++turn) {
+    for (std::size_t i = 0; i < alike.size(); ++i) {
+      alike[turn] += of_moving[i] * of_fixed[(i + turn) % alike.size()];
+    }
+  }
+  WallDirections sorted = alike;
+  std::sort(sorted.begin(), sorted.end());
+  // The lattice's angles begin the bins: a degree keeps the rounding off.
+  lattice.keep_groups(
+      [&](double angle) { return alike[direction_bin(angle + radians(1))] >= sorted[2 * sorted.size() / 3]; });
+}
 
 /// The best that can be climbed to from the best few.
 double best_climb(const WallFit& fitness, std::vector<ScoredPose> poses, double resolution_m,
@@ -81,8 +124,11 @@ Decoy::Decoy(const AlignRequest& request, const RunContext& context)
   // The smaller map is the one to turn: the transform is then smaller. A window lies in the target's frame, and stays.
   const bool swapped = !window_ && source_.radius_m() > target_.radius_m();
   const PreparedMap& fixed = swapped ? source_ : target_;
-  const PreparedMap moving = (swapped ? target_ : source_).mirrored();
-  const PoseLattice lattice(fixed, moving, window_, kLattice);
+  const PreparedMap moving = (swapped ? target_ : source_).mirrored(kLattice.finest_level);
+  PoseLattice lattice(fixed, moving, window_, kLattice);
+  if (!window_) {
+    keep_the_likely_third(lattice, fixed, moving);
+  }
   resolution_m_ = lattice.resolution_m();
   const WallFit fitness(fixed, moving, lattice.level(), {}, kMaxPoints);
   best_ = best_climb(fitness, swept(lattice, window_, fitness, context, stopped_), resolution_m_, window_,

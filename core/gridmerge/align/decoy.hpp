@@ -10,8 +10,9 @@ namespace gridmerge {
 /// Borrows the maps.
 class Decoy {
  public:
-  /// Sweeps over all poses of the mirrored source, or those in the prior's fence (angles by 5 degrees, cells of 0.2 or
-  /// 0.4 m), and climbs from the best of them.
+  /// Sweeps over poses of the mirrored source (angles by 5 degrees, cells of 0.2 or 0.4 m) and climbs from the best of
+  /// them: over all in the prior's fence, or, where there is none, at the third of the angles at which the walls of
+  /// both maps run most alike.
   Decoy(const AlignRequest& request, const RunContext& context);
 
   /// The best smooth fit of the mirrored source [points of wall].

@@ -77,6 +77,10 @@ PoseLattice::PoseLattice(const PreparedMap& fixed, const PreparedMap& moving, co
   }
 }
 
+void PoseLattice::keep_groups(const std::function<bool(double base_angle_rad)>& passes) {
+  std::erase_if(base_angles_rad_, [&](double angle) { return !passes(angle); });
+}
+
 double PoseLattice::angle_rad(int angle) const {
   return wrap_angle(base_angles_rad_[static_cast<std::size_t>(angle / turns_)] + (angle % turns_) * kPi / 2);
 }

@@ -7,6 +7,7 @@
 /// the moving map's table, turned cell by cell. Whole numbers, so that two ways to add it up agree to the last bit.
 #include <compare>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -57,6 +58,9 @@ class PoseLattice {
 
   [[nodiscard]] int angles() const { return turns_ * static_cast<int>(base_angles_rad_.size()); }
   [[nodiscard]] double resolution_m() const { return fixed_level_->resolution_m; }
+  /// Leaves out of the groups of angles those that do not pass.
+  void keep_groups(const std::function<bool(double base_angle_rad)>& passes);
+
   [[nodiscard]] int level() const { return level_; }  ///< of both PreparedMaps
   /// How far apart neighbouring angles are [rad].
   [[nodiscard]] double angle_step_rad() const { return angle_step_rad_; }

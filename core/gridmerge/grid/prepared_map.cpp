@@ -260,31 +260,49 @@ PreparedMap::PreparedMap(const OccupancyGrid& grid, double resolution_m, const P
                [&](std::size_t k, std::size_t) { levels_[k].wall_distance_m = wall_distances(levels_[k]); });
 }
 
-PreparedMap PreparedMap::mirrored() const {
-  const auto flip_rows = [](auto& cells, int width, int height) {
-    for (int row = 0; row < height / 2; ++row) {
-      const auto below = cells.begin() + static_cast<std::ptrdiff_t>(row) * width;
-      std::swap_ranges(below, below + width, cells.begin() + static_cast<std::ptrdiff_t>(height - 1 - row) * width);
+PreparedMap PreparedMap::mirrored(int finest_level) const {
+  const auto flipped_rows = [](const auto& cells, int width) {
+    auto flipped = cells;
+    flipped.clear();
+    for (auto end = cells.end(); end != cells.begin(); end -= width) {
+      flipped.insert(flipped.end(), end - width, end);
     }
+    return flipped;
   };
-  PreparedMap flipped = *this;
-  flipped.map_from_local_ = {};
-  if (!occupancy_.empty()) {
-    flip_rows(flipped.occupancy_, level(0).width, level(0).height);
+  PreparedMap flipped;
+  flipped.resolution_m_ = resolution_m_;
+  flipped.radius_m_ = radius_m_;
+  flipped.known_area_m2_ = known_area_m2_;
+  flipped.known_cells_ = known_cells_;
+  flipped.levels_.resize(levels_.size());
+  for (std::size_t k = static_cast<std::size_t>(finest_level); k < levels_.size(); ++k) {
+    const MapLevel& level = levels_[k];
+    flipped.levels_[k] = {
+        .width = level.width,
+        .height = level.height,
+        .resolution_m = level.resolution_m,
+        .lower_left = {level.lower_left.x_m, -(level.lower_left.y_m + level.height * level.resolution_m)},
+        .state = flipped_rows(level.state, level.width),
+        .wall_distance_m = flipped_rows(level.wall_distance_m, level.width)};
   }
-  for (MapLevel& level : flipped.levels_) {
-    flip_rows(level.state, level.width, level.height);
-    flip_rows(level.wall_distance_m, level.width, level.height);
-    level.lower_left.y_m = -(level.lower_left.y_m + level.height * level.resolution_m);
+  if (finest_level == 0 && !occupancy_.empty()) {
+    flipped.occupancy_ = flipped_rows(occupancy_, level(0).width);
+  }
+  // Row by row from below, as the constructor lists them.
+  flipped.walls_.reserve(walls_.size());
+  for (auto end = walls_.end(); end != walls_.begin();) {
+    auto begin = end - 1;
+    while (begin != walls_.begin() && (begin - 1)->at.y_m == begin->at.y_m) {
+      --begin;
+    }
+    flipped.walls_.insert(flipped.walls_.end(), begin, end);
+    end = begin;
   }
   for (WallPoint& wall : flipped.walls_) {
     wall.at.y_m = -wall.at.y_m;
     wall.free_normal.y_m = -wall.free_normal.y_m;
     wall.surface_normal.y_m = -wall.surface_normal.y_m;
   }
-  // Row by row from below, as the constructor lists them.
-  std::stable_sort(flipped.walls_.begin(), flipped.walls_.end(),
-                   [](const WallPoint& a, const WallPoint& b) { return a.at.y_m < b.at.y_m; });
   return flipped;
 }
 

@@ -75,7 +75,8 @@ class PreparedMap {
 
   /// The map as a mirror along the local x axis shows it: a place as large, with walls as many and as straight, that is
   /// not there. Its local frame stands for its map frame as well.
-  [[nodiscard]] PreparedMap mirrored() const;
+  /// @param finest_level  levels finer than that are left empty, and so is the occupancy then
+  [[nodiscard]] PreparedMap mirrored(int finest_level = 0) const;
 
   [[nodiscard]] const Pose2& map_from_local() const { return map_from_local_; }
   [[nodiscard]] double resolution_m() const { return resolution_m_; }

@@ -105,6 +105,24 @@ TEST(PoseLattice, KeepsToAWindowOfAngles) {
   EXPECT_FALSE(lattice.holds({3, centre.column + 6, centre.row}));
 }
 
+TEST(PoseLattice, LeavesOutGroupsWithAllTheirQuarterTurns) {
+  const PreparedMap map = posts_and_walls(1, 60, 50);
+  PoseLattice lattice(map, map, std::nullopt, coarse());
+  lattice.keep_groups([](double angle) { return std::abs(angle - radians(30)) > 1e-9; });
+  ASSERT_EQ(lattice.groups(), 2);
+  ASSERT_EQ(lattice.angles(), 8);
+  for (int i = 0; i < lattice.angles(); ++i) {
+    const double in_quarter = std::fmod(degrees(lattice.angle_rad(i)) + 360.5, 90) - 0.5;
+    EXPECT_NEAR(in_quarter, i < 4 ? 0 : 60, 1e-9);
+  }
+  int seen = 0;
+  score_lattice(lattice, {}, [&](const ScoreSurface& surface, std::size_t) {
+    EXPECT_LT(surface.angle, 8);
+    ++seen;
+  });
+  EXPECT_EQ(seen, 8);
+}
+
 TEST(PoseLattice, AddsUpWhatItSays) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const PreparedMap fixed = posts_and_walls(seed, 81, 59);

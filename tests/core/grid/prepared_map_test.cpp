@@ -408,6 +408,21 @@ TEST(PreparedMap, MirroredIsThePreparedMirrorImage) {
   }
 }
 
+TEST(PreparedMap, MirroredFromALevelOnLacksTheFinerOnesAlone) {
+  const PreparedMap map(worlds::make_scene(known_pair("flat")).source, 0.05);
+  const PreparedMap all = map.mirrored();
+  const PreparedMap some = map.mirrored(2);
+  EXPECT_TRUE(some.level(0).state.empty());
+  EXPECT_TRUE(some.level(1).state.empty());
+  EXPECT_TRUE(some.occupancy().empty());
+  for (int level = 2; level < PreparedMap::kLevels; ++level) {
+    EXPECT_EQ(some.level(level).state, all.level(level).state) << level;
+    EXPECT_EQ(some.level(level).wall_distance_m, all.level(level).wall_distance_m) << level;
+  }
+  EXPECT_EQ(some.walls().size(), all.walls().size());
+  EXPECT_EQ(some.radius_m(), all.radius_m());
+}
+
 TEST(PreparedMap, MirroredTwiceIsTheMapItself) {
   const PreparedMap map(worlds::make_scene(known_pair("flat")).source, 0.05);
   const PreparedMap twice = map.mirrored().mirrored();
