@@ -36,35 +36,57 @@ struct Told {
 }  // namespace
 
 double confidence_of(const Row& row, const ConfidenceWeights& weights) {
-  return is_fitted(row) ? gridmerge::confidence_of(row.figures, weights) : 0;
+  ConfidenceFigures figures = row.figures;
+  figures.log_rivals = log_rivals(row.rivals, weights.per_rival);
+  return is_fitted(row) ? gridmerge::confidence_of(figures, weights) : 0;
 }
 
 bool is_fitted(const Row& row) { return row.evidence_m > 0; }
 
 ConfidenceWeights fit_weights(const std::vector<Row>& rows, const std::vector<double>& importance, double ridge) {
-  const auto terms = confidence_terms();
+  std::vector<ConfidenceTerm> terms;  // but log_rivals, which has weights in it
+  std::copy_if(confidence_terms().begin(), confidence_terms().end(), std::back_inserter(terms),
+               [](const ConfidenceTerm& term) { return term.figure != &ConfidenceFigures::log_rivals; });
+  const auto rival_columns = rival_terms();
   std::vector<std::size_t> used;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (is_fitted(rows[i]) && importance[i] > 0) {
       used.push_back(i);
     }
   }
+  if (used.empty()) {
+    return {};
+  }
   Eigen::MatrixXd figures(static_cast<Eigen::Index>(used.size()), static_cast<Eigen::Index>(terms.size()));
   Eigen::VectorXd right(figures.rows());
   Eigen::VectorXd weight(figures.rows());
+  std::vector<Eigen::MatrixXd> rivals;
   for (std::size_t i = 0; i < used.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
+    const Row& row = rows[used[i]];
     for (std::size_t k = 0; k < terms.size(); ++k) {
-      figures(at, static_cast<Eigen::Index>(k)) = rows[used[i]].figures.*terms[k].figure;
+      figures(at, static_cast<Eigen::Index>(k)) = row.figures.*terms[k].figure;
     }
-    right(at) = rows[used[i]].right ? 1 : 0;
+    Eigen::MatrixXd others(static_cast<Eigen::Index>(row.rivals.size()),
+                           static_cast<Eigen::Index>(rival_columns.size()));
+    for (Eigen::Index r = 0; r < others.rows(); ++r) {
+      for (Eigen::Index k = 0; k < others.cols(); ++k) {
+        others(r, k) = row.rivals[static_cast<std::size_t>(r)].*rival_columns[static_cast<std::size_t>(k)].figure;
+      }
+    }
+    rivals.push_back(std::move(others));
+    right(at) = row.right ? 1 : 0;
     weight(at) = importance[used[i]];
   }
-  const statistics::Weights fit = statistics::fit_logistic(figures, right, weight, ridge);
+  const statistics::RivalledWeights fit = statistics::fit_rivalled_logistic(figures, rivals, right, weight, ridge);
   ConfidenceWeights weights;
-  weights.bias = fit.bias;
+  weights.bias = fit.weights.bias;
+  weights.per.log_rivals = fit.per_log_rivals;
   for (std::size_t k = 0; k < terms.size(); ++k) {
-    weights.per.*terms[k].figure = fit.per_input(static_cast<Eigen::Index>(k));
+    weights.per.*terms[k].figure = fit.weights.per_input(static_cast<Eigen::Index>(k));
+  }
+  for (std::size_t k = 0; k < rival_columns.size(); ++k) {
+    weights.per_rival.*rival_columns[k].figure = fit.per_rival(static_cast<Eigen::Index>(k));
   }
   return weights;
 }

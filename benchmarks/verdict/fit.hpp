@@ -17,7 +17,7 @@ namespace gridmerge::verdict_study {
 /// Does the row tell anything of the weights? Not where there is no pose, or more speaks against it than for it.
 [[nodiscard]] bool is_fitted(const Row& row);
 
-/// Weights of the logistic function (statistics::fit_logistic) by which `right` is foretold.
+/// Weights of the logistic function (statistics::fit_rivalled_logistic) by which `right` is foretold.
 /// @param importance  of each row, >= 0; rows that are not is_fitted do not count
 [[nodiscard]] ConfidenceWeights fit_weights(const std::vector<Row>& rows, const std::vector<double>& importance,
                                             double ridge = 1);

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "gridmerge/align/scored_pose.hpp"
+#include "gridmerge/base/error.hpp"
 #include "gridmerge/base/number_text.hpp"
 #include "gridmerge/base/parallel.hpp"
 #include "manifest/csv_table.hpp"
@@ -45,7 +46,8 @@ Row row_of(const PairPlan& plan, const StudyPair& pair, const Merger& method, co
              .error = {},
              .seconds = alignment.seconds.align,
              .judge_s = alignment.seconds.judge,
-             .figures = alignment.verdict.figures};
+             .figures = alignment.verdict.figures,
+             .rivals = alignment.verdict.rivals};
   if (!alignment.hypotheses.empty()) {
     const Hypothesis& best = alignment.hypotheses.front();
     const Pose2& pose = best.target_from_source.pose;
@@ -68,6 +70,40 @@ Row row_of(const PairPlan& plan, const StudyPair& pair, const Merger& method, co
 constexpr const char* kColumns =
     "kind,set,places,a,b,truth,overlap,right,outcome,confidence,vetoed,error_m,error_deg,seconds,judge_s,evidence_m,"
     "conflict_share";
+
+/// Rivals as words, their figures parted by colons.
+std::string in_words(const std::vector<RivalFigures>& rivals) {
+  std::string text;
+  for (const RivalFigures& rival : rivals) {
+    text += text.empty() ? "" : " ";
+    for (const RivalTerm& term : rival_terms()) {
+      text += (&term == rival_terms().data() ? "" : ":") + exact(rival.*term.figure);
+    }
+  }
+  return text;
+}
+
+/// @throws InputError naming file, line and word
+std::vector<RivalFigures> rivals_in(const CsvRow& line) {
+  std::vector<RivalFigures> rivals;
+  std::istringstream words(line.text("rivals"));
+  for (std::string word; words >> word;) {
+    std::istringstream numbers(word);
+    RivalFigures rival;
+    for (const RivalTerm& term : rival_terms()) {
+      if (&term != rival_terms().data() && numbers.get() != ':') {
+        numbers.setstate(std::ios::failbit);
+      }
+      numbers >> rival.*term.figure;
+    }
+    if (!numbers || numbers.peek() != std::istringstream::traits_type::eof()) {
+      throw InputError(line.where() + ": rivals", "wanted are " + std::to_string(rival_terms().size()) +
+                                                      " numbers a rival, parted by colons, not '" + word + "'");
+    }
+    rivals.push_back(rival);
+  }
+  return rivals;
+}
 
 }  // namespace
 
@@ -101,7 +137,7 @@ std::string to_csv(const std::vector<Row>& rows) {
   for (const ConfidenceTerm& term : confidence_terms()) {
     text << ',' << term.name;
   }
-  text << '\n';
+  text << ",rivals\n";
   for (const Row& row : rows) {
     text << row.kind << ',' << row.set << ',' << row.places << ',' << row.a << ',' << row.b << ',' << row.truth << ','
          << exact(row.overlap) << ',' << (row.right ? 1 : 0) << ',' << row.outcome << ',' << exact(row.confidence)
@@ -113,7 +149,7 @@ std::string to_csv(const std::vector<Row>& rows) {
     for (const ConfidenceTerm& term : confidence_terms()) {
       text << ',' << exact(row.figures.*term.figure);
     }
-    text << '\n';
+    text << ',' << in_words(row.rivals) << '\n';
   }
   return text.str();
 }
@@ -137,7 +173,8 @@ std::vector<Row> read_rows(const std::filesystem::path& csv) {
                .judge_s = line.number("judge_s"),
                .evidence_m = line.number("evidence_m"),
                .conflict_share = line.number("conflict_share"),
-               .figures = {}};
+               .figures = {},
+               .rivals = rivals_in(line)};
     if (!line.text("error_m").empty()) {
       row.error = {line.number("error_m"), radians(line.number("error_deg"))};
     }

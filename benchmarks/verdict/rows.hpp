@@ -31,6 +31,7 @@ struct Row {
   double evidence_m = 0;
   double conflict_share = 0;
   ConfidenceFigures figures;  ///< what the confidence was computed from; zero where there was no pose
+  std::vector<RivalFigures> rivals;
 };
 
 /// Told after each pair how many are done, from any thread but one at a time.

@@ -95,6 +95,10 @@ std::string weight_table(const ConfidenceWeights& built_in, const ConfidenceWeig
   for (const ConfidenceTerm& term : confidence_terms()) {
     line("per_" + std::string(term.name), [&](const ConfidenceWeights& weights) { return weights.per.*term.figure; });
   }
+  for (const RivalTerm& term : rival_terms()) {
+    line("rival_" + std::string(term.name),
+         [&](const ConfidenceWeights& weights) { return weights.per_rival.*term.figure; });
+  }
   return text;
 }
 

@@ -86,6 +86,10 @@ std::string weights_yaml(ConfidenceWeights weights) {
     weights.per.*term.figure = rounded(weights.per.*term.figure);
     list.add("per_" + std::string(term.name), weights.per.*term.figure, -1e3, 1e3, {"", "", ""});
   }
+  for (const RivalTerm& term : rival_terms()) {
+    weights.per_rival.*term.figure = rounded(weights.per_rival.*term.figure);
+    list.add("rival_" + std::string(term.name), weights.per_rival.*term.figure, -1e3, 1e3, {"", "", ""});
+  }
   return to_yaml("verdict", list);
 }
 

@@ -70,6 +70,44 @@ TEST(Logistic, AnInputThatNeverChangesHasNoWeight) {
   EXPECT_EQ(fit.per_input(0), 0);
 }
 
+/// Each observation has up to six others beside it, which have more or less of two things.
+TEST(RivalledLogistic, FindsTheWeightsThatMadeTheLabels) {
+  RandomStream random(3, "rivals");
+  constexpr Eigen::Index kRows = 20000;
+  const Eigen::Vector2d per_rival(0.8, -0.5);
+  Eigen::MatrixXd inputs(kRows, 1);
+  Eigen::VectorXd labels(kRows);
+  std::vector<Eigen::MatrixXd> rivals;
+  for (Eigen::Index i = 0; i < kRows; ++i) {
+    inputs(i, 0) = 2 + random.normal();
+    rivals.emplace_back(static_cast<Eigen::Index>(random.below(7)), 2);
+    double all = 1;
+    for (Eigen::Index k = 0; k < rivals.back().rows(); ++k) {
+      rivals.back().row(k) << random.uniform(-4, 2), random.uniform(-2, 4);
+      all += std::exp(rivals.back().row(k).dot(per_rival));
+    }
+    labels(i) = random.uniform() < logistic(-0.5 + 1.2 * inputs(i, 0) - 1.5 * std::log(all)) ? 1 : 0;
+  }
+  const RivalledWeights fit = fit_rivalled_logistic(inputs, rivals, labels, Eigen::VectorXd::Ones(kRows), 1);
+  EXPECT_NEAR(fit.weights.bias, -0.5, 0.15);
+  EXPECT_NEAR(fit.weights.per_input(0), 1.2, 0.06);
+  EXPECT_NEAR(fit.per_log_rivals, -1.5, 0.15);
+  EXPECT_NEAR(fit.per_rival(0), 0.8, 0.08);
+  EXPECT_NEAR(fit.per_rival(1), -0.5, 0.08);
+}
+
+TEST(RivalledLogistic, IsThePlainOneWhereNothingCompetes) {
+  const Drawn data = drawn(500, 0.4, Eigen::Vector2d(0.3, -0.2));
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(500);
+  const std::vector<Eigen::MatrixXd> nobody(500, Eigen::MatrixXd(0, 3));
+  const Weights plain = fit_logistic(data.inputs, data.labels, ones, 1);
+  const RivalledWeights fit = fit_rivalled_logistic(data.inputs, nobody, data.labels, ones, 1);
+  EXPECT_NEAR(fit.weights.bias, plain.bias, 1e-6);
+  EXPECT_TRUE(fit.weights.per_input.isApprox(plain.per_input, 1e-6));
+  EXPECT_NEAR(fit.per_log_rivals, 0, 1e-6);
+  EXPECT_TRUE(fit.per_rival.isZero(1e-6));
+}
+
 TEST(Linear, FindsTheLine) {
   Eigen::MatrixXd inputs(5, 2);
   inputs << 0, 1, 1, 0, 2, 2, 3, 1, 4, 5;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "gridmerge/base/error.hpp"
 #include "gridmerge/base/random.hpp"
 #include "methods/register_all.hpp"
 #include "support/scenes.hpp"
@@ -21,6 +22,9 @@
 
 namespace gridmerge::verdict_study {
 namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
 
 /// Two surveys of one office that have a part in common.
 worlds::MapPair office() { return make_scene(known_pair("office_small_overlap")); }
@@ -182,6 +186,12 @@ Row random_row(RandomStream& chance) {
   for (const ConfidenceTerm& term : confidence_terms()) {
     row.figures.*term.figure = chance.uniform(-1, 1);
   }
+  row.rivals.resize(chance.below(6));
+  for (RivalFigures& rival : row.rivals) {
+    for (const RivalTerm& term : rival_terms()) {
+      rival.*term.figure = chance.uniform(-2, 2);
+    }
+  }
   return row;
 }
 
@@ -194,6 +204,8 @@ ConfidenceWeights some_weights() {
     weights.per.*term.figure = next;
     next = next > 0 ? -next + 0.1 : -next;
   }
+  weights.per.log_rivals = -1.4;
+  weights.per_rival = {.log_conflict = -0.9, .elastic_gain = 0.6, .log_overlap_share = 1.1};
   return weights;
 }
 
@@ -208,7 +220,10 @@ TEST(Fit, FindsTheWeightsThatMadeTheRows) {
   const ConfidenceWeights fitted = fit_weights(rows, std::vector<double>(rows.size(), 1));
   EXPECT_NEAR(fitted.bias, truth.bias, 0.1);
   for (const ConfidenceTerm& term : confidence_terms()) {
-    EXPECT_NEAR(fitted.per.*term.figure, truth.per.*term.figure, 0.12) << term.name;
+    EXPECT_NEAR(fitted.per.*term.figure, truth.per.*term.figure, 0.15) << term.name;
+  }
+  for (const RivalTerm& term : rival_terms()) {
+    EXPECT_NEAR(fitted.per_rival.*term.figure, truth.per_rival.*term.figure, 0.1) << term.name;
   }
   EXPECT_LT(calibration_error(rows,
                               [&] {
@@ -219,6 +234,38 @@ TEST(Fit, FindsTheWeightsThatMadeTheRows) {
                                 return told;
                               }()),
             0.02);
+}
+
+TEST(Rows, AreReadBackWithTheirRivals) {
+  RandomStream chance(5, "rows");
+  Row row = random_row(chance);
+  row.kind = "pair";
+  row.rivals = {{.log_conflict = -0.25, .elastic_gain = 0.1, .log_overlap_share = 1e-7}, {}};
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "rivals.csv";
+  std::ofstream(file) << to_csv({row});
+  const std::vector<Row> again = read_rows(file);
+  ASSERT_EQ(again.size(), 1U);
+  ASSERT_EQ(again[0].rivals.size(), 2U);
+  EXPECT_EQ(again[0].rivals[0].log_overlap_share, 1e-7);
+  EXPECT_EQ(to_csv(again), to_csv({row}));
+}
+
+TEST(Rows, NameARivalThatIsNone) {
+  RandomStream chance(6, "rows");
+  Row row = random_row(chance);
+  row.rivals = {{}};
+  std::string text = to_csv({row});
+  ASSERT_NE(text.find("0:0:0"), std::string::npos);
+  for (const std::string wrong : {"0:0", "0:0:0:0", "0:x:0", "0;0;0"}) {
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "no_rival.csv";
+    std::ofstream(file) << std::string(text).replace(text.find("0:0:0"), 5, wrong);
+    try {
+      read_rows(file);
+      ADD_FAILURE() << wrong;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), AllOf(HasSubstr("no_rival.csv:2: rivals"), HasSubstr("'" + wrong + "'")));
+    }
+  }
 }
 
 TEST(Fit, RowsOfNoImportanceDoNotCount) {
@@ -316,16 +363,18 @@ TEST(Tables, SayHowOftenEachStrictnessIsWrongAndMisses) {
   };
   std::vector<Row> rows = {row("same", true, 0.55), row("same", true, 0.6), row("different", false, 0),
                            row("different", false, 0)};
-  const std::string table = strictness_table(rows, {0.999, 0.3, 0.65, 0.1});
+  const std::vector<Strictness> degrees = degrees_of_strictness();
+  const double enough_for_eager = (degrees[1].min_confidence + degrees[2].min_confidence) / 2;
+  const std::vector<double> confidence = {0.999, 0.3, enough_for_eager, 0.1};
+  const std::string table = strictness_table(rows, confidence);
   // cautious and normal merge the first alone; eager the stranger as well.
   EXPECT_NE(table.find("| pair | 4 | 0/4 (0.00 %) | 1/2 (50.00 %) | 0/4 (0.00 %) | 1/2 (50.00 %) | 1/4 (25.00 %) |"),
             std::string::npos)
       << table;
   rows[2].vetoed = true;
-  EXPECT_EQ(strictness_table(rows, {0.999, 0.3, 0.65, 0.1}).find("25.00 %"), std::string::npos);
-  EXPECT_NE(
-      overlap_table(rows, {0.999, 0.3, 0.65, 0.1}).find("| 0.5 .. 0.7 | 2 | 2/2 (100.00 %) | 1/2 (50.00 %) | 0 |"),
-      std::string::npos);
+  EXPECT_EQ(strictness_table(rows, confidence).find("25.00 %"), std::string::npos);
+  EXPECT_NE(overlap_table(rows, confidence).find("| 0.5 .. 0.7 | 2 | 2/2 (100.00 %) | 1/2 (50.00 %) | 0 |"),
+            std::string::npos);
 }
 
 TEST(Pictures, AreWrittenWholeAndCanBeLookedAt) {

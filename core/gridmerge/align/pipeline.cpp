@@ -217,10 +217,13 @@ class Search {
     announce(context_, "judge");
     std::vector<Hypothesis>& listed = alignment_.hypotheses;
     listed = distinct(hypotheses_, request_.source.centre_in_map(), options_.verdict,
-                      static_cast<std::size_t>(std::max(2, options_.hypotheses)));
+                      std::max(kCompared, static_cast<std::size_t>(options_.hypotheses)));
     if (!listed.empty()) {
-      // All figures of the best enter the verdict; of the others, how walls meet is enough.
       listed.front().figures = evaluator_.figures(listed.front().target_from_source.pose, context_.num_threads);
+      parallel_for(std::min(listed.size(), kCompared) - 1, context_.num_threads, [&](std::size_t i, std::size_t) {
+        Hypothesis& rival = listed[i + 1];
+        rival.figures = evaluator_.rival_figures(rival.target_from_source.pose);
+      });
       if (background_.random.poses == 0) {
         background_.random = evaluator_.random_level(context_.seed, context_.num_threads);
       }

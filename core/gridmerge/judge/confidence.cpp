@@ -1,6 +1,8 @@
 #include "gridmerge/judge/confidence.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "gridmerge/base/logistic.hpp"
 
@@ -11,6 +13,7 @@ using F = ConfidenceFigures;
 
 constexpr std::array kTerms = {
     ConfidenceTerm{"log_lead", &F::log_lead, "natural logarithm of the lead in evidence [m]"},
+    ConfidenceTerm{"log_rivals", &F::log_rivals, "natural logarithm of 1 and the other poses' plausibilities"},
     ConfidenceTerm{"spotless_rival", &F::spotless_rival, "unit of the evidence share of the strongest spotless rival"},
     ConfidenceTerm{"decoy_doubt", &F::decoy_doubt,
                    "unit that the logarithm of how much better the maps fit than in a mirror lacks of 0.5"},
@@ -26,9 +29,34 @@ constexpr std::array kTerms = {
     ConfidenceTerm{"weak_direction", &F::weak_direction, "unit that this logarithm exceeds -3 by"},
 };
 
+constexpr std::array kRivalTerms = {
+    RivalTerm{"log_conflict", &RivalFigures::log_conflict, "unit of ln(conflict_share + 0.01)"},
+    RivalTerm{"elastic_gain", &RivalFigures::elastic_gain, "unit of conflict share that shifted patches take away"},
+    RivalTerm{"log_overlap_share", &RivalFigures::log_overlap_share, "unit of ln(overlap_share)"},
+};
+
 }  // namespace
 
 std::span<const ConfidenceTerm> confidence_terms() { return kTerms; }
+
+std::span<const RivalTerm> rival_terms() { return kRivalTerms; }
+
+double plausibility(const RivalFigures& rival, const RivalFigures& weights) {
+  constexpr double kMost = 12;  // no more doubt than that can be had
+  double sum = 0;
+  for (const RivalTerm& term : kRivalTerms) {
+    sum += weights.*term.figure * rival.*term.figure;
+  }
+  return std::exp(std::min(sum, kMost));
+}
+
+double log_rivals(const std::vector<RivalFigures>& rivals, const RivalFigures& weights) {
+  double sum = 1;
+  for (const RivalFigures& rival : rivals) {
+    sum += plausibility(rival, weights);
+  }
+  return std::log(sum);
+}
 
 double confidence_of(const ConfidenceFigures& figures, const ConfidenceWeights& weights) {
   double sum = weights.bias;

@@ -14,8 +14,8 @@ struct ElasticMeeting {
   double beside_m = 0;  ///< the walls that shift_m was summed over
 };
 
-/// Each patch of 4 m x 4 m takes of all shifts up to 0.6 m the one with the most walls on walls less walls in free
-/// space; of equal ones the shortest. A millisecond.
+/// Each patch of 4 m x 4 m takes of the shifts up to 0.6 m the one with the most walls on walls less walls in free
+/// space: by 0.2 m, of equal ones the shortest, then by 0.1 m beside it. A millisecond.
 [[nodiscard]] ElasticMeeting meet_elastically(const SidedMap& fixed, const SidedMap& moving,
                                               const Pose2& fixed_from_moving, double tolerance_m);
 

@@ -73,6 +73,16 @@ void add_piece_figures(Figures& f) {
   f.fittings_conflict_share = both_ways(Piece::kFittings);
 }
 
+/// From both ways with every patch shifted by itself.
+void add_elastic_figures(Figures& f, const ElasticMeeting& there, const ElasticMeeting& back) {
+  f.elastic_conflict_share = share(there.in_free_m + back.in_free_m, there.same_side_m + back.same_side_m);
+  // As rough as two places that are not the same, where there is little to tell by.
+  constexpr double kStrange_m = 0.4;
+  constexpr double kLittle_m = 2;
+  f.elastic_roughness_m =
+      (there.shift_m + back.shift_m + kStrange_m * kLittle_m) / (there.beside_m + back.beside_m + kLittle_m);
+}
+
 }  // namespace
 
 void EvaluatorOptions::describe(OptionList& list) {
@@ -207,6 +217,16 @@ Figures Evaluator::wall_figures(const Pose2& target_from_source, std::size_t eve
   return f;
 }
 
+Figures Evaluator::rival_figures(const Pose2& target_from_source) const {
+  constexpr int kEvery = 4;
+  Figures f = wall_figures(target_from_source);
+  const Pose2 local = to_local(target_from_source, *target_.map, *source_.map);
+  add_cell_figures(f, local, kEvery);
+  add_elastic_figures(f, meet_elastically(target_, source_, local, options_.tolerance_m),
+                      meet_elastically(source_, target_, inverse(local), options_.tolerance_m));
+  return f;
+}
+
 Figures Evaluator::figures(const Pose2& target_from_source, int num_threads) const {
   Figures f = wall_figures(target_from_source);
   const Pose2 local = to_local(target_from_source, *target_.map, *source_.map);
@@ -215,53 +235,63 @@ Figures Evaluator::figures(const Pose2& target_from_source, int num_threads) con
   double psi_open = 0;
   double psi_wall = 0;
   const std::array<std::function<void()>, 5> parts = {
-      [&] { add_cell_figures(f, local); },
+      [&] { add_cell_figures(f, local, 1); },
       [&] { there = meet_elastically(target_, source_, local, options_.tolerance_m); },
       [&] { back = meet_elastically(source_, target_, inverse(local), options_.tolerance_m); },
       [&] { psi_open = psi_cells(local, CellState::kOpen); }, [&] { psi_wall = psi_cells(local, CellState::kWall); }};
   parallel_for(parts.size(), num_threads, [&](std::size_t i, std::size_t) { parts[i](); });
 
-  f.elastic_conflict_share = share(there.in_free_m + back.in_free_m, there.same_side_m + back.same_side_m);
-  // As rough as two places that are not the same, where there is little to tell by.
-  constexpr double kStrange_m = 0.4;
-  constexpr double kLittle_m = 2;
-  f.elastic_roughness_m =
-      (there.shift_m + back.shift_m + kStrange_m * kLittle_m) / (there.beside_m + back.beside_m + kLittle_m);
+  add_elastic_figures(f, there, back);
   f.psi_cells = psi_open + psi_wall;                                                     // Eq. 2.6
   f.delta = f.psi_cells + options_.c_lock * (f.disagreement_cells - f.agreement_cells);  // Eq. 2.5
   return f;
 }
 
-void Evaluator::add_cell_figures(Figures& figures, const Pose2& local) const {
+void Evaluator::add_cell_figures(Figures& figures, const Pose2& local, int every) const {
   const MapLevel& target = target_.map->level(0);
   const MapLevel& source = source_.map->level(0);
   const std::vector<std::int8_t>& target_percent = target_.map->occupancy();
   const ToCells to(target, local);
-  std::array<std::array<double, 3>, 3> count{};  // by state in the target and in the source
-  for (int row = 0; row < source.height; ++row) {
-    for (int column = 0; column < source.width; ++column) {
+  const double stands_for = every * every;    // cells
+  std::array<std::array<int, 3>, 3> pairs{};  // by state in the target and in the source
+  double fitness = 0;
+  // A row of cells is placed before any is looked up: several at a time, so.
+  const auto width = static_cast<std::size_t>(source.width);
+  std::vector<float> x_m(width);
+  for (int column = 0; column < source.width; ++column) {
+    x_m[static_cast<std::size_t>(column)] = cell_centre(source, column, 0).x_m;
+  }
+  std::vector<int> columns(width);
+  std::vector<int> rows(width);
+  for (int row = 0; row < source.height; row += every) {
+    const float y_m = cell_centre(source, 0, row).y_m;
+    for (std::size_t i = 0; i < width; ++i) {
+      columns[i] = to.column({x_m[i], y_m});
+      rows[i] = to.row({x_m[i], y_m});
+    }
+    for (int column = 0; column < source.width; column += every) {
       const CellState in_source = source.state[source.offset(column, row)];
-      if (in_source == CellState::kUnseen) {
-        continue;
-      }
-      const Point2f p = cell_centre(source, column, row);
-      const int c = to.column(p);
-      const int r = to.row(p);
-      if (!target.contains(c, r)) {
+      const int c = columns[static_cast<std::size_t>(column)];
+      const int r = rows[static_cast<std::size_t>(column)];
+      if (in_source == CellState::kUnseen || !target.contains(c, r)) {
         continue;
       }
       const std::size_t at = target.offset(c, r);
       const CellState in_target = target.state[at];
-      count[static_cast<std::size_t>(in_target)][static_cast<std::size_t>(in_source)] += 1;
+      ++pairs[static_cast<std::size_t>(in_target)][static_cast<std::size_t>(in_source)];
       if (in_source == CellState::kWall && in_target == CellState::kWall) {
-        figures.fitness += target_percent[at] / 100.0;  // Eq. 3.6
+        fitness += target_percent[at] / 100.0;  // Eq. 3.6
       }
     }
   }
+  figures.fitness = stands_for * fitness;
+  const auto count = [&](std::size_t in_target, std::size_t in_source) {
+    return stands_for * pairs[in_target][in_source];
+  };
   constexpr auto kOpenAt = static_cast<std::size_t>(CellState::kOpen);
   constexpr auto kWallAt = static_cast<std::size_t>(CellState::kWall);
-  figures.agreement_cells = count[kOpenAt][kOpenAt] + count[kWallAt][kWallAt];
-  figures.disagreement_cells = count[kOpenAt][kWallAt] + count[kWallAt][kOpenAt];
+  figures.agreement_cells = count(kOpenAt, kOpenAt) + count(kWallAt, kWallAt);
+  figures.disagreement_cells = count(kOpenAt, kWallAt) + count(kWallAt, kOpenAt);
   figures.acceptance_index = share(figures.agreement_cells, figures.disagreement_cells);  // Eq. 2.8
   const double overlap = figures.agreement_cells + figures.disagreement_cells;
   figures.overlap_area_m2 = overlap * target.resolution_m * target.resolution_m;
@@ -270,9 +300,9 @@ void Evaluator::add_cell_figures(Figures& figures, const Pose2& local) const {
   if (overlap > 0) {
     for (const std::size_t t : {kOpenAt, kWallAt}) {
       for (const std::size_t s : {kOpenAt, kWallAt}) {
-        const double joint = count[t][s] / overlap;
-        const double alone_t = (count[t][kOpenAt] + count[t][kWallAt]) / overlap;
-        const double alone_s = (count[kOpenAt][s] + count[kWallAt][s]) / overlap;
+        const double joint = count(t, s) / overlap;
+        const double alone_t = (count(t, kOpenAt) + count(t, kWallAt)) / overlap;
+        const double alone_s = (count(kOpenAt, s) + count(kWallAt, s)) / overlap;
         if (joint > 0) {
           figures.mutual_information_bit += joint * std::log2(joint / (alone_t * alone_s));
         }

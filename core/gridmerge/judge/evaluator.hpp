@@ -104,6 +104,9 @@ class Evaluator {
   [[nodiscard]] double evidence_m(const Pose2& target_from_source) const;
   /// The wall figures only; the rest is zero.
   [[nodiscard]] Figures wall_figures(const Pose2& target_from_source) const;
+  /// What a pose is held against the best one by: the wall figures, those of shifted patches, and the cell by cell ones
+  /// of every 16th cell; the rest is zero.
+  [[nodiscard]] Figures rival_figures(const Pose2& target_from_source) const;
   /// All figures.
   [[nodiscard]] Figures figures(const Pose2& target_from_source, int num_threads = 1) const;
   /// Of large maps by some of their walls: a pose at random hits or misses many.
@@ -114,7 +117,8 @@ class Evaluator {
   [[nodiscard]] Figures wall_figures(const Pose2& target_from_source, std::size_t every) const;
   [[nodiscard]] WallMeeting meet(const SidedMap& fixed, const SidedMap& moving, const Pose2& fixed_from_moving,
                                  std::size_t every) const;
-  void add_cell_figures(Figures& figures, const Pose2& local) const;
+  /// Of every n-th cell each way, as if they were all.
+  void add_cell_figures(Figures& figures, const Pose2& local, int every) const;
   [[nodiscard]] double psi_cells(const Pose2& local, CellState state) const;
 
   EvaluatorOptions options_;

@@ -37,10 +37,16 @@ struct SidedMap {
 
 [[nodiscard]] SidedMap sided_map(const PreparedMap& map, double tolerance_m, int max_points);
 
+/// The bit that is set in SidedMap::seen_from where a wall was seen from this one's side, after its map was turned; all
+/// bits where its side is not known.
+[[nodiscard]] inline std::uint8_t sides_of(const SidedWall& wall, int turn_64ths) {
+  return wall.side.known ? static_cast<std::uint8_t>(1U << wall.side.octant_after_64ths(turn_64ths)) : 0xFF;
+}
+
 /// 1 where the wall was seen from a side that `seen_from` holds, after its map was turned; 0 where from another; a half
 /// where its own is not known.
 [[nodiscard]] inline double same_side(const SidedWall& wall, std::uint8_t seen_from, int turn_64ths) {
-  return wall.side.known ? (seen_from >> wall.side.octant_after_64ths(turn_64ths)) & 1 : 0.5;
+  return !wall.side.known ? 0.5 : (seen_from & sides_of(wall, turn_64ths)) != 0 ? 1 : 0;
 }
 
 /// A turn in 1/64 of a full one, as WallSide has it.

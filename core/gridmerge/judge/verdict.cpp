@@ -44,6 +44,10 @@ std::optional<WeakDirection> weak_direction(const PoseEstimate& estimate, const 
 
 double log_far(double both_far_conflict_share) { return std::log(both_far_conflict_share + 0.005); }
 
+double log_conflict(const Figures& f) { return std::log(f.conflict_share + 0.01); }
+double elastic_gain(const Figures& f) { return f.conflict_share - f.elastic_conflict_share; }
+double log_overlap_share(const Figures& f) { return std::log(std::max(0.01, f.overlap_share)); }
+
 /// The best pose alone, as if no other came near.
 ConfidenceFigures unrivalled_figures(const Hypothesis& one, const Background& background,
                                      const std::optional<WeakDirection>& weak, double deviations) {
@@ -60,21 +64,46 @@ ConfidenceFigures unrivalled_figures(const Hypothesis& one, const Background& ba
   c.furniture = f.furniture_conflict_share;
   c.both_furniture = f.both_furniture_conflict_share;
   c.fittings = f.fittings_conflict_share;
-  c.elastic_gain = f.conflict_share - f.elastic_conflict_share;
+  c.elastic_gain = elastic_gain(f);
   c.roughness = f.elastic_roughness_m;
-  c.log_overlap_share = std::log(std::max(0.01, f.overlap_share));
+  c.log_overlap_share = log_overlap_share(f);
   c.log_weak = std::log(std::max(kFinest, weak ? weak->deviation_m : kNotKnown));
   c.weak_direction = std::max(0.0, c.log_weak - kWeak);
   return c;
 }
 
+/// The pose whose doubt weighs most, and all of them.
+struct Rivals {
+  std::vector<RivalFigures> figures;
+  const Hypothesis* most_plausible = nullptr;
+
+  Rivals(const std::vector<Hypothesis>& ranked, const RivalFigures& weights) {
+    const Figures& best = ranked.front().figures;
+    double most = 0;
+    for (std::size_t i = 1; i < std::min(ranked.size(), kCompared); ++i) {
+      const Figures& f = ranked[i].figures;
+      if (f.evidence_m <= 0) {
+        continue;
+      }
+      figures.push_back({.log_conflict = log_conflict(f) - log_conflict(best),
+                         .elastic_gain = elastic_gain(f) - elastic_gain(best),
+                         .log_overlap_share = log_overlap_share(f) - log_overlap_share(best)});
+      if (const double here = plausibility(figures.back(), weights); here > most) {
+        most = here;
+        most_plausible = &ranked[i];
+      }
+    }
+  }
+};
+
 /// The same beside the other poses.
-ConfidenceFigures rivalled_figures(ConfidenceFigures c, const std::vector<Hypothesis>& ranked) {
+ConfidenceFigures rivalled_figures(ConfidenceFigures c, const std::vector<Hypothesis>& ranked, double log_rivals) {
   constexpr double kSpotless = 0.03;
   const double best_m = std::max(1e-6, ranked.front().figures.evidence_m);
   const std::size_t rival = strongest_rival(ranked);
   const double rival_m = rival < ranked.size() ? std::max(0.0, ranked[rival].figures.evidence_m) : 0;
   c.log_lead = std::log(std::max(1.0, best_m - rival_m));
+  c.log_rivals = log_rivals;
   for (std::size_t i = 1; i < ranked.size(); ++i) {
     if (ranked[i].figures.conflict_share < kSpotless) {
       c.spotless_rival = std::max(c.spotless_rival, ranked[i].figures.evidence_m / best_m);
@@ -142,7 +171,7 @@ std::string to_string(Outcome outcome) {
   return "declined";
 }
 
-std::vector<Strictness> degrees_of_strictness() { return {{"cautious", 0.97}, {"normal", 0.75}, {"eager", 0.65}}; }
+std::vector<Strictness> degrees_of_strictness() { return {{"cautious", 0.97}, {"normal", 0.8}, {"eager", 0.7}}; }
 
 double VerdictOptions::needed_confidence() const {
   if (min_confidence > 0) {
@@ -156,20 +185,22 @@ double VerdictOptions::needed_confidence() const {
 
 // configs/learned/verdict.yaml; a test holds the two together.
 ConfidenceWeights VerdictOptions::learned_weights() {
-  return {.bias = 6.5387,
-          .per = {.log_lead = 0.7412,
-                  .spotless_rival = -2.457,
-                  .decoy_doubt = -3.2591,
-                  .log_deviations = -3.2135,
-                  .log_both_far = -0.8463,
-                  .furniture = -2.959,
-                  .both_furniture = -5.43,
-                  .fittings = -2.5649,
-                  .elastic_gain = 21.2513,
-                  .roughness = -2.9506,
-                  .log_overlap_share = 1.4235,
-                  .log_weak = 0.7913,
-                  .weak_direction = -1.8244}};
+  return {.bias = 9.0597,
+          .per = {.log_lead = 0.3606,
+                  .log_rivals = -2.2782,
+                  .spotless_rival = -1.7801,
+                  .decoy_doubt = -3.116,
+                  .log_deviations = -2.3742,
+                  .log_both_far = -0.7011,
+                  .furniture = -1.6949,
+                  .both_furniture = -8.2615,
+                  .fittings = -1.475,
+                  .elastic_gain = 7.0193,
+                  .roughness = -1.8762,
+                  .log_overlap_share = 1.0834,
+                  .log_weak = 0.9883,
+                  .weak_direction = -2.4489},
+          .per_rival = {.log_conflict = -0.9031, .elastic_gain = 12.8329, .log_overlap_share = 1.1239}};
 }
 
 void VerdictOptions::describe(OptionList& list) {
@@ -220,6 +251,11 @@ void VerdictOptions::describe(OptionList& list) {
     list.add("per_" + std::string(term.name), weights.per.*term.figure, -1e3, 1e3,
              {"", "Confidence: per " + std::string(term.meaning) + ".", ""});
   }
+  for (const RivalTerm& term : rival_terms()) {
+    list.add(
+        "rival_" + std::string(term.name), weights.per_rival.*term.figure, -1e3, 1e3,
+        {"", "Plausibility of another pose: per " + std::string(term.meaning) + " more than the best pose has.", ""});
+  }
 }
 
 std::size_t strongest_rival(const std::vector<Hypothesis>& ranked) {
@@ -249,7 +285,9 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
   v.deviations = random.deviation_m > 0 ? (best.evidence_m - random.mean_m) / random.deviation_m : 0;
   const std::optional<WeakDirection> weak = weak_direction(first.target_from_source, background);
   const ConfidenceFigures alone = unrivalled_figures(first, background, weak, v.deviations);
-  v.figures = rivalled_figures(alone, ranked);
+  const Rivals rivals(ranked, o.weights.per_rival);
+  v.rivals = rivals.figures;
+  v.figures = rivalled_figures(alone, ranked, log_rivals(v.rivals, o.weights.per_rival));
   v.confidence = best.evidence_m > 0 ? confidence_of(v.figures, o.weights) : 0;
   // How sure one could be if no other pose came near: what is missing then is missing in the maps.
   const double unrivalled = best.evidence_m > 0 ? confidence_of(alone, o.weights) : 0;
@@ -263,10 +301,11 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
   const std::string agreeing = fixed(same_side_m(best), 1) + " m of wall agree, " + fixed(in_free_m(best), 1) +
                                " m stand in the other's free space (" + percent(best.conflict_share) + "), over " +
                                fixed(best.overlap_area_m2, 0) + " m2 known in both";
-  const std::string leading = ranked.size() > 1
-                                  ? "the strongest other pose has " +
-                                        percent(best.evidence_m > 0 ? other / best.evidence_m : 1) + " of the evidence"
-                                  : "no other pose was put forward";
+  const std::string leading =
+      ranked.size() > 1 ? "the strongest other pose has " + percent(best.evidence_m > 0 ? other / best.evidence_m : 1) +
+                              " of the evidence; all together are " + fixed(std::expm1(v.figures.log_rivals), 2) +
+                              " times as plausible as this one"
+                        : "no other pose was put forward";
   const std::string standing =
       "the evidence stands " + fixed(v.deviations, 1) + " standard deviations above random poses" +
       (background.decoy ? ", and the maps fit " + fixed(std::exp(v.decoy), 2) + " times as well as in a mirror" : "");
@@ -322,9 +361,9 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
       doubts.push_back("the walls agree, but " + percent(best.furniture_conflict_share) +
                        " of the furniture stands where the other map is free: another storey, or much was moved; " +
                        wanted);
-    } else if (rival_at < ranked.size()) {
+    } else if (rivals.most_plausible != nullptr) {
       doubts.push_back("not sure enough while another pose fits as well as it does: " +
-                       in_words({&ranked[rival_at]}, first) + "; " + wanted);
+                       in_words({rivals.most_plausible}, first) + "; " + wanted);
     } else {
       doubts.push_back("not sure enough: " + wanted);
     }

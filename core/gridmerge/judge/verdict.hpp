@@ -26,10 +26,15 @@ enum class Outcome {
 /// A pose with what the Evaluator says of it.
 struct Hypothesis {
   PoseEstimate target_from_source;  ///< between map frames
-  Figures figures;                  ///< all of them for the first one; of the others, Evaluator::wall_figures
+  /// All of them for the first one; Evaluator::rival_figures of the next, kCompared in all; of the others,
+  /// wall_figures.
+  Figures figures;
   double method_score = 0;
   bool proposed = true;  ///< by the method; false: a rival that the pipeline found
 };
+
+/// So many poses of a list are held against each other.
+inline constexpr std::size_t kCompared = 8;
 
 struct VerdictOptions {
   // How sure a merge must be.
@@ -37,7 +42,7 @@ struct VerdictOptions {
   double min_confidence = 0;
   // Gates: none may be broken in a merge, however sure it looks.
   double min_same_side_m = 20;
-  double min_lead = 0.3;
+  double min_lead = 0.2;
   double max_conflict_share = 0.33;
   double min_deviations = 1.5;
   double spotless_conflict_share = 0.01;
@@ -72,6 +77,7 @@ struct Verdict {
   double decoy = 0;                  ///< DecoyLevel::log_ratio
   bool vetoed = false;               ///< a gate is broken: not merged, however high the confidence
   ConfidenceFigures figures;         ///< what the confidence was computed from
+  std::vector<RivalFigures> rivals;  ///< ... and what its log_rivals was
   std::vector<std::string> reasons;  ///< in words, with figures; the decisive one first; never empty
 };
 

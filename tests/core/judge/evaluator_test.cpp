@@ -424,6 +424,21 @@ TEST(Evaluator, StaysWhenTheMapsAreSwappedAndThePoseInverted) {
   }
 }
 
+TEST(Evaluator, TellsOfARivalWhatItTellsOfTheBestPose) {
+  const Scene scene;
+  const Evaluator evaluator(scene.target, scene.source, {});
+  for (const Pose2& pose : scene.poses()) {
+    const Figures all = evaluator.figures(pose);
+    const Figures some = evaluator.rival_figures(pose);
+    EXPECT_EQ(some.evidence_m, all.evidence_m);
+    EXPECT_EQ(some.conflict_share, all.conflict_share);
+    EXPECT_EQ(some.elastic_conflict_share, all.elastic_conflict_share);
+    EXPECT_EQ(some.elastic_roughness_m, all.elastic_roughness_m);
+    EXPECT_NEAR(some.overlap_area_m2, all.overlap_area_m2, 0.3 + 0.03 * all.overlap_area_m2);
+    EXPECT_NEAR(some.overlap_share, all.overlap_share, 0.02);
+  }
+}
+
 TEST(Evaluator, TheTruthStandsOutOfChance) {
   const Scene scene;
   const Evaluator evaluator(scene.target, scene.source, {});

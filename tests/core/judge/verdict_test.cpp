@@ -205,7 +205,7 @@ TEST(Verdict, ConfidenceDecidesBetweenDoubtAndNothing) {
   VerdictOptions options;
   OptionList list = option_list(options);
   for (const OptionField& field : list.fields()) {
-    if (field.key.starts_with("per_")) {
+    if (field.key.starts_with("per_") || field.key.starts_with("rival_")) {
       ASSERT_EQ(list.set(field.key, "0"), "");
     }
   }
@@ -289,6 +289,7 @@ TEST(Verdict, OtherFurnitureIsNotBlamedForWhatTheWallsLack) {
   Hypothesis poor = other_storey();
   poor.figures.elastic_conflict_share = poor.figures.conflict_share + 0.2;
   poor.figures.elastic_roughness_m = 0.6;
+  poor.figures.overlap_share = 0.05;
   const Verdict v = judged({poor}, kFurnishedChance, {});
   EXPECT_EQ(v.outcome, Outcome::kNoOverlap);
   EXPECT_THAT(v.reasons, Not(Contains(HasSubstr("storey"))));
@@ -300,6 +301,7 @@ TEST(Confidence, LearnedWeightsPointTheRightWay) {
   for (const auto& [figure, sign] : {std::pair{&F::log_lead, 1},
                                      {&F::spotless_rival, -1},
                                      {&F::decoy_doubt, -1},
+                                     {&F::log_rivals, -1},
                                      {&F::log_both_far, -1},
                                      {&F::furniture, -1},
                                      {&F::both_furniture, -1},
@@ -307,11 +309,14 @@ TEST(Confidence, LearnedWeightsPointTheRightWay) {
                                      {&F::roughness, -1}}) {
     EXPECT_GT(sign * (weights.per.*figure), 0);
   }
+  EXPECT_LT(weights.per_rival.log_conflict, 0);
+  EXPECT_GT(weights.per_rival.log_overlap_share, 0);
 }
 
 /// A flat seen twice, as the drawn ones are; then what speaks against it.
 TEST(Confidence, IsHighForAClearPoseAndLowForADoubtfulOne) {
   const ConfidenceFigures clear{.log_lead = 4.4,
+                                .log_rivals = 0.1,
                                 .spotless_rival = 0.1,
                                 .decoy_doubt = 0,
                                 .log_deviations = 1.3,
@@ -329,6 +334,7 @@ TEST(Confidence, IsHighForAClearPoseAndLowForADoubtfulOne) {
   ConfidenceFigures doubtful = clear;
   doubtful.decoy_doubt = 0.6;
   doubtful.log_lead = 2.5;
+  doubtful.log_rivals = 1.2;
   doubtful.furniture = 0.4;
   doubtful.both_furniture = 0.1;
   doubtful.log_both_far = -3.1;
@@ -351,6 +357,67 @@ TEST(Confidence, IsALogisticFunctionOfItsTerms) {
   std::sort(names.begin(), names.end());
   EXPECT_EQ(std::unique(names.begin(), names.end()), names.end());
   EXPECT_EQ(sizeof(ConfidenceFigures), names.size() * sizeof(double));  // none is forgotten
+}
+
+TEST(Rivals, AddUpToADoubt) {
+  const RivalFigures weights{.log_conflict = -1, .elastic_gain = 5, .log_overlap_share = 2};
+  const RivalFigures equal;
+  EXPECT_EQ(log_rivals({}, weights), 0);
+  EXPECT_NEAR(log_rivals({equal}, weights), std::log(2), 1e-12);
+  EXPECT_NEAR(log_rivals({equal, equal}, weights), std::log(3), 1e-12);
+  const RivalFigures cleaner{.log_conflict = -0.5, .elastic_gain = 0.1, .log_overlap_share = 0.3};
+  EXPECT_NEAR(plausibility(cleaner, weights), std::exp(0.5 + 0.5 + 0.6), 1e-9);
+  EXPECT_TRUE(std::isfinite(log_rivals({{.log_conflict = -1e9}}, weights)));
+  EXPECT_EQ(sizeof(RivalFigures), rival_terms().size() * sizeof(double));  // none is forgotten
+}
+
+TEST(Rivals, ArePlausibleByWhatTheyHaveMoreThanTheBestPose) {
+  Hypothesis rival = hypothesis(40, 4);
+  rival.figures.overlap_share = 0.25;
+  const Verdict v = judged({hypothesis(80, 1), rival, hypothesis(1, 30)}, kChance, {});
+  ASSERT_EQ(v.rivals.size(), 1U);  // more speaks against the other one than for it
+  EXPECT_NEAR(v.rivals[0].log_conflict, std::log(4 / 44.0 + 0.01) - std::log(1 / 81.0 + 0.01), 1e-9);
+  EXPECT_NEAR(v.rivals[0].elastic_gain, 0.3 * (4 / 44.0 - 1 / 81.0), 1e-9);
+  EXPECT_NEAR(v.rivals[0].log_overlap_share, std::log(0.5), 1e-9);
+  EXPECT_NEAR(v.figures.log_rivals, log_rivals(v.rivals, VerdictOptions{}.weights.per_rival), 1e-12);
+  EXPECT_THAT(v.reasons, Contains(HasSubstr("all together are 0.16 times as plausible as this one")));
+}
+
+/// With as much evidence, that which overlaps more with no more conflict is the greater doubt.
+TEST(Rivals, LowerTheConfidenceTheMoreThePoseOfTheirsIsPlausible) {
+  Hypothesis brushing = hypothesis(30, 5);
+  brushing.figures.overlap_share = 0.1;
+  Hypothesis covering = hypothesis(21.5, 0.15);
+  covering.figures.evidence_m = brushing.figures.evidence_m;
+  covering.figures.overlap_share = 0.6;
+  const ConfidenceWeights weights = VerdictOptions::learned_weights();
+  const auto told = [&](const Hypothesis& rival) {
+    ConfidenceFigures figures = judged({hypothesis(80, 4), rival}, kChance, {}).figures;
+    figures.spotless_rival = 0;
+    return confidence_of(figures, weights);
+  };
+  EXPECT_LT(told(covering), told(brushing));
+}
+
+TEST(Rivals, TheMostPlausibleIsNamed) {
+  Hypothesis best = hypothesis(60, 8);
+  Hypothesis brushing = hypothesis(30, 3);
+  brushing.figures.overlap_share = 0.1;
+  Hypothesis covering = hypothesis(28, 2);
+  covering.figures.overlap_share = 0.9;
+  covering.target_from_source.pose = {7, 0, 0};
+  VerdictOptions options;
+  options.weights.bias += 1.5;
+  options.min_confidence = 0.9999;
+  const Verdict v = judged({best, brushing, covering}, kChance, options);
+  EXPECT_EQ(v.outcome, Outcome::kAmbiguous);
+  EXPECT_THAT(v.reasons.front(), AllOf(HasSubstr("while another pose fits"), HasSubstr("at x 7.00 m")));
+}
+
+TEST(Rivals, ThoseFarDownTheListAreNotAskedFor) {
+  std::vector<Hypothesis> ranked(kCompared + 5, hypothesis(10, 0.5));
+  ranked.front() = hypothesis(80, 1);
+  EXPECT_EQ(judged(ranked, kChance, {}).rivals.size(), kCompared - 1);
 }
 
 TEST(Strictness, GrowsFromEagerToCautious) {
