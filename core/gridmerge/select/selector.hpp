@@ -12,8 +12,8 @@
 namespace gridmerge {
 
 struct SelectorOptions {
-  double success_slack = 0.02;
-  double least_gain = 0.03;
+  double success_slack = 0.1;
+  double least_gain = 0.05;
   int at_most = 3;
 
   void describe(OptionList& list);
