@@ -221,6 +221,9 @@ void VerdictOptions::describe(OptionList& list) {
       .add("min_same_side_m", min_same_side_m, 0, 1e6,
            {"m", "Least length of wall, both ways, seen from the same side in both maps.",
             "Lower it for very small places; little then speaks for a merge."})
+      .add("min_evidence_m", min_evidence_m, 0, 1e6,
+           {"m", "Least evidence: walls that agree less those in the other's free space, as weighed by the evaluator.",
+            "Lower it for very small places; a pose that hardly agrees in more than it conflicts may then merge."})
       .add("min_lead", min_lead, 0, 1,
            {"", "Least lead in evidence over any other pose with no more conflict (but for 8 %), as a share.",
             "Lower it and look-alike places get merged wrongly."})
@@ -319,6 +322,9 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
   } else if (same_side_m(best) < o.min_same_side_m) {
     nothing.push_back("too little in common: " + fixed(same_side_m(best), 1) + " m of wall agree, at least " +
                       fixed(o.min_same_side_m, 1) + " m wanted");
+  } else if (best.evidence_m < o.min_evidence_m) {
+    nothing.push_back("hardly more agrees than conflicts: evidence of " + fixed(best.evidence_m, 1) + " m, at least " +
+                      fixed(o.min_evidence_m, 1) + " m wanted");
   }
   if (v.deviations < o.min_deviations) {
     nothing.push_back("no better than chance: " + fixed(v.deviations, 1) +
@@ -392,8 +398,9 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
   v.reasons.push_back(leading);
   v.reasons.push_back(standing);
   if (v.outcome != Outcome::kMerged) {
-    // What is not merged must not look sure of itself; of two poses that fit alike, one is right at the best.
-    v.confidence = std::min(v.confidence, rivalled ? 0.5 : needed);
+    // What is not merged must not look sure of itself; of two poses that fit alike, one is right at the best, and a
+    // gate that says that nothing fits has seen what the confidence may not have.
+    v.confidence = std::min(v.confidence, rivalled || !nothing.empty() ? std::min(0.5, needed) : needed);
   }
   return v;
 }

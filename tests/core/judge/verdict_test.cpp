@@ -112,6 +112,16 @@ TEST(Verdict, FindsNoOverlapWhereTooLittleIsInCommon) {
   EXPECT_THAT(v.reasons.front(), AllOf(HasSubstr("too little in common"), HasSubstr("11.9 m"), HasSubstr("12.0 m")));
 }
 
+TEST(Verdict, FindsNoOverlapWhereHardlyMoreAgreesThanConflicts) {
+  VerdictOptions options = always_confident();
+  options.max_conflict_share = 1;
+  EXPECT_EQ(judged({hypothesis(46.5, 20)}, kChance, options).outcome, Outcome::kMerged);
+  const Verdict v = judged({hypothesis(43.5, 20)}, kChance, options);
+  EXPECT_EQ(v.outcome, Outcome::kNoOverlap);
+  EXPECT_LE(v.confidence, 0.5);  // whatever the figures of the confidence say
+  EXPECT_THAT(v.reasons.front(), AllOf(HasSubstr("hardly more agrees"), HasSubstr("8.5 m"), HasSubstr("10.0 m")));
+}
+
 TEST(Verdict, FindsNoOverlapWhereChanceWouldDoAsWell) {
   VerdictOptions options = always_confident();
   options.min_deviations = 3;
@@ -247,7 +257,7 @@ TEST(Verdict, NeverMergesWhereAGateIsBroken) {
     const double same_side_m = f.source_in_target.same_side_m + f.target_in_source.same_side_m;
     const Figures& g = ranked.back().figures;
     const bool rivalled = g.evidence_m > (1 - o.min_lead) * f.evidence_m && g.conflict_share < f.conflict_share + 0.08;
-    const bool broken = f.evidence_m <= 0 || same_side_m < o.min_same_side_m || rivalled ||
+    const bool broken = f.evidence_m < o.min_evidence_m || same_side_m < o.min_same_side_m || rivalled ||
                         f.conflict_share > o.max_conflict_share || v.deviations < o.min_deviations;
     ASSERT_EQ(v.vetoed, broken);
     ASSERT_EQ(v.outcome == Outcome::kMerged, !broken && v.confidence >= o.needed_confidence());
