@@ -149,7 +149,7 @@ TEST(StudyRun, CountsAMergeOfTwoWorldsAsFalseAndARefusalAsRight) {
   const std::filesystem::path folder = fresh_folder();
   run(study_of("methods: [hough_spectrum, {name: hough_spectrum, set: {verdict.bias: 1000, verdict.min_lead: 0, "
                "verdict.spotless_conflict_share: 0, verdict.max_conflict_share: 1, verdict.min_deviations: 0, "
-               "verdict.min_same_side_m: 0}}]\n"
+               "verdict.min_same_side_m: 0, verdict.min_evidence_m: 0}}]\n"
                "data: [{scenes: {kind: flat, relation: two_worlds, " +
                kTiny + "}}]\n"),
       folder);
