@@ -254,13 +254,13 @@ TEST(Rows, NameARivalThatIsNone) {
   RandomStream chance(6, "rows");
   Row row = random_row(chance);
   row.rivals = {{}};
-  std::string text = to_csv({row});
+  const std::string text = to_csv({row});
   ASSERT_NE(text.find("0:0:0"), std::string::npos);
   for (const std::string wrong : {"0:0", "0:0:0:0", "0:x:0", "0;0;0"}) {
     const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "no_rival.csv";
     std::ofstream(file) << std::string(text).replace(text.find("0:0:0"), 5, wrong);
     try {
-      read_rows(file);
+      static_cast<void>(read_rows(file));
       ADD_FAILURE() << wrong;
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), AllOf(HasSubstr("no_rival.csv:2: rivals"), HasSubstr("'" + wrong + "'")));
