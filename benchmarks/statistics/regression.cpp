@@ -1,6 +1,7 @@
 #include "statistics/regression.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -123,7 +124,7 @@ RivalledWeights fit_rivalled_logistic(const Eigen::MatrixXd& inputs, const std::
     }
     for (Eigen::Index i = 0; i < inputs.rows(); ++i) {
       const Eigen::MatrixXd& some = rivals[static_cast<std::size_t>(i)];
-      const Eigen::VectorXd plausible = (some * per_rival).array().min(12.0).exp();
+      const Eigen::VectorXd plausible = (some * per_rival).unaryExpr(&odds);
       const double all = 1 + plausible.sum();
       sums(i) += per_log_rivals * std::log(all);
       if (slopes != nullptr) {

@@ -26,9 +26,10 @@ struct RivalledWeights {
   Eigen::VectorXd per_rival;  ///< of what each of the others has more
 };
 
-/// P(label) = 1 / (1 + exp(-(bias + per_input . inputs + per_log_rivals * ln(1 + sum of exp(per_rival . rival))))), by
-/// Fisher's scoring, from no plausibility at all: least of the same loss as fit_logistic's, with the ridge on
-/// per_log_rivals, too, and on per_rival, the rivals scaled to a mean square of 1. The loss has more than one valley.
+/// P(label) = logistic(bias + per_input . inputs + per_log_rivals * ln(1 + sum of odds(per_rival . rival))), by
+/// Fisher's scoring, from per_log_rivals = -1 and all else 0: least of the same loss as fit_logistic's, with the ridge
+/// on per_log_rivals, too, and on per_rival, the rivals scaled to a mean square of 1. The loss may have more than one
+/// valley. Without rows all is zero, and per_rival empty.
 /// @param rivals  of each observation one row a rival; as many columns everywhere
 [[nodiscard]] RivalledWeights fit_rivalled_logistic(const Eigen::MatrixXd& inputs,
                                                     const std::vector<Eigen::MatrixXd>& rivals,

@@ -82,22 +82,24 @@ std::string outcome_table(const std::vector<Row>& rows) {
 std::string weight_table(const ConfidenceWeights& built_in, const ConfidenceWeights& fitted,
                          const WeightsByKey& folds) {
   std::string text = heading_of({"weight", "built in", "fitted", "fitted, place by place"});
-  const auto line = [&](const std::string& name, const auto& weight_of) {
+  const auto named = [](ConfidenceWeights weights) {
+    std::vector<std::pair<std::string, double>> all;
+    const OptionList list = option_list(weights);
+    for (const OptionField& field : list.fields()) {
+      all.emplace_back(field.key, *std::get<double*>(field.value));
+    }
+    return all;
+  };
+  const auto before = named(built_in);
+  const auto after = named(fitted);
+  for (std::size_t i = 0; i < before.size(); ++i) {
     std::vector<double> values;
     for (const auto& [key, weights] : folds) {
-      values.push_back(weight_of(weights));
+      values.push_back(named(weights)[i].second);
     }
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    text += line_of({name, fixed(weight_of(built_in), 2), fixed(weight_of(fitted), 2),
+    text += line_of({before[i].first, fixed(before[i].second, 2), fixed(after[i].second, 2),
                      values.empty() ? "" : fixed(*low, 2) + " .. " + fixed(*high, 2)});
-  };
-  line("bias", [](const ConfidenceWeights& weights) { return weights.bias; });
-  for (const ConfidenceTerm& term : confidence_terms()) {
-    line("per_" + std::string(term.name), [&](const ConfidenceWeights& weights) { return weights.per.*term.figure; });
-  }
-  for (const RivalTerm& term : rival_terms()) {
-    line("rival_" + std::string(term.name),
-         [&](const ConfidenceWeights& weights) { return weights.per_rival.*term.figure; });
   }
   return text;
 }

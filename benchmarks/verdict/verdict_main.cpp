@@ -78,17 +78,10 @@ std::vector<double> importance_of(const std::vector<Row>& rows, const std::vecto
 
 /// The weights alone, as the section `verdict` of a configuration; four digits say enough.
 std::string weights_yaml(ConfidenceWeights weights) {
-  const auto rounded = [](double value) { return std::round(value * 1e4) / 1e4; };
-  OptionList list;
-  weights.bias = rounded(weights.bias);
-  list.add("bias", weights.bias, -1e3, 1e3, {"", "", ""});
-  for (const ConfidenceTerm& term : confidence_terms()) {
-    weights.per.*term.figure = rounded(weights.per.*term.figure);
-    list.add("per_" + std::string(term.name), weights.per.*term.figure, -1e3, 1e3, {"", "", ""});
-  }
-  for (const RivalTerm& term : rival_terms()) {
-    weights.per_rival.*term.figure = rounded(weights.per_rival.*term.figure);
-    list.add("rival_" + std::string(term.name), weights.per_rival.*term.figure, -1e3, 1e3, {"", "", ""});
+  const OptionList list = option_list(weights);
+  for (const OptionField& field : list.fields()) {
+    double& weight = *std::get<double*>(field.value);
+    weight = std::round(weight * 1e4) / 1e4;
   }
   return to_yaml("verdict", list);
 }

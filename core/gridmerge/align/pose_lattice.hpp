@@ -56,11 +56,11 @@ class PoseLattice {
   PoseLattice(const PreparedMap& fixed, const PreparedMap& moving, const std::optional<PoseWindow>& window,
               const LatticeOptions& options);
 
-  [[nodiscard]] int angles() const { return turns_ * static_cast<int>(base_angles_rad_.size()); }
-  [[nodiscard]] double resolution_m() const { return fixed_level_->resolution_m; }
-  /// Leaves out of the groups of angles those that do not pass.
+  /// Leaves out the groups of angles (below) whose first angle does not pass.
   void keep_groups(const std::function<bool(double base_angle_rad)>& passes);
 
+  [[nodiscard]] int angles() const { return turns_ * static_cast<int>(base_angles_rad_.size()); }
+  [[nodiscard]] double resolution_m() const { return fixed_level_->resolution_m; }
   [[nodiscard]] int level() const { return level_; }  ///< of both PreparedMaps
   /// How far apart neighbouring angles are [rad].
   [[nodiscard]] double angle_step_rad() const { return angle_step_rad_; }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+#include <type_traits>
 
 #include "gridmerge/base/parallel.hpp"
 
@@ -262,8 +263,8 @@ PreparedMap::PreparedMap(const OccupancyGrid& grid, double resolution_m, const P
 
 PreparedMap PreparedMap::mirrored(int finest_level) const {
   const auto flipped_rows = [](const auto& cells, int width) {
-    auto flipped = cells;
-    flipped.clear();
+    std::decay_t<decltype(cells)> flipped;
+    flipped.reserve(cells.size());
     for (auto end = cells.end(); end != cells.begin(); end -= width) {
       flipped.insert(flipped.end(), end - width, end);
     }

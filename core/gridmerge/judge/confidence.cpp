@@ -1,6 +1,5 @@
 #include "gridmerge/judge/confidence.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -37,17 +36,30 @@ constexpr std::array kRivalTerms = {
 
 }  // namespace
 
+void ConfidenceWeights::describe(OptionList& list) {
+  const auto add = [&](const std::string& key, double& weight, const std::string& meaning) {
+    list.add(key, weight, -1e3, 1e3, {"", meaning, ""});
+  };
+  add("bias", bias, "Confidence: constant term of the logistic function.");
+  for (const ConfidenceTerm& term : kTerms) {
+    add("per_" + std::string(term.name), per.*term.figure, "Confidence: per " + std::string(term.meaning) + ".");
+  }
+  for (const RivalTerm& term : kRivalTerms) {
+    add("rival_" + std::string(term.name), per_rival.*term.figure,
+        "Plausibility of another pose: per " + std::string(term.meaning) + " more than the best pose has.");
+  }
+}
+
 std::span<const ConfidenceTerm> confidence_terms() { return kTerms; }
 
 std::span<const RivalTerm> rival_terms() { return kRivalTerms; }
 
 double plausibility(const RivalFigures& rival, const RivalFigures& weights) {
-  constexpr double kMost = 12;  // no more doubt than that can be had
   double sum = 0;
   for (const RivalTerm& term : kRivalTerms) {
     sum += weights.*term.figure * rival.*term.figure;
   }
-  return std::exp(std::min(sum, kMost));
+  return odds(sum);
 }
 
 double log_rivals(const std::vector<RivalFigures>& rivals, const RivalFigures& weights) {

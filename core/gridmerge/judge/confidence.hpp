@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "gridmerge/base/options.hpp"
+
 namespace gridmerge {
 
 /// Each is 0 where nothing is known.
@@ -41,6 +43,9 @@ struct ConfidenceWeights {
   double bias = 0;
   ConfidenceFigures per;
   RivalFigures per_rival;
+
+  /// bias, per_NAME of each ConfidenceTerm, rival_NAME of each RivalTerm.
+  void describe(OptionList& list);
 };
 
 /// A figure by name.

@@ -17,6 +17,7 @@ constexpr std::size_t kMostInAPatch = 60;  // walls that are looked at
 struct Shift {
   int columns = 0;
   int rows = 0;
+  friend bool operator==(const Shift&, const Shift&) = default;
 };
 
 /// Shifts within reach, by two steps; then those that may follow, to the sides of the best. Walls are as wide as the
@@ -164,9 +165,12 @@ ElasticMeeting meet_elastically(const SidedMap& fixed, const SidedMap& moving, c
       }
     };
     look_at(shifts.wide);
+    const Shift wide = best.shift;
     const Shift wide_of_fixtures = of_fixtures.shift;
-    look_at(shifts.beside(best.shift));
-    look_at(shifts.beside(wide_of_fixtures));
+    look_at(shifts.beside(wide));
+    if (wide_of_fixtures != wide) {
+      look_at(shifts.beside(wide_of_fixtures));
+    }
     const double unit_m = moving.metres_a_wall * static_cast<double>(every);
     all.same_side_m += best.met.same_side * unit_m;
     all.in_free_m += best.met.in_free * unit_m;

@@ -255,25 +255,16 @@ void Evaluator::add_cell_figures(Figures& figures, const Pose2& local, int every
   const double stands_for = every * every;    // cells
   std::array<std::array<int, 3>, 3> pairs{};  // by state in the target and in the source
   double fitness = 0;
-  // A row of cells is placed before any is looked up: several at a time, so.
-  const auto width = static_cast<std::size_t>(source.width);
-  std::vector<float> x_m(width);
-  for (int column = 0; column < source.width; ++column) {
-    x_m[static_cast<std::size_t>(column)] = cell_centre(source, column, 0).x_m;
-  }
-  std::vector<int> columns(width);
-  std::vector<int> rows(width);
   for (int row = 0; row < source.height; row += every) {
-    const float y_m = cell_centre(source, 0, row).y_m;
-    for (std::size_t i = 0; i < width; ++i) {
-      columns[i] = to.column({x_m[i], y_m});
-      rows[i] = to.row({x_m[i], y_m});
-    }
     for (int column = 0; column < source.width; column += every) {
       const CellState in_source = source.state[source.offset(column, row)];
-      const int c = columns[static_cast<std::size_t>(column)];
-      const int r = rows[static_cast<std::size_t>(column)];
-      if (in_source == CellState::kUnseen || !target.contains(c, r)) {
+      if (in_source == CellState::kUnseen) {
+        continue;
+      }
+      const Point2f p = cell_centre(source, column, row);
+      const int c = to.column(p);
+      const int r = to.row(p);
+      if (!target.contains(c, r)) {
         continue;
       }
       const std::size_t at = target.offset(c, r);

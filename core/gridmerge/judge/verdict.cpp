@@ -248,17 +248,8 @@ void VerdictOptions::describe(OptionList& list) {
           "weak_direction_m", weak_direction_m, 0, 100,
           {"m",
            "Greatest standard deviation of the refined pose, at the source, in the direction that the walls fix least.",
-           "A corridor, or one wall, leaves it sliding; raise it where that does not matter."})
-      .add("bias", weights.bias, -1e3, 1e3, {"", "Confidence: constant term of the logistic function.", ""});
-  for (const ConfidenceTerm& term : confidence_terms()) {
-    list.add("per_" + std::string(term.name), weights.per.*term.figure, -1e3, 1e3,
-             {"", "Confidence: per " + std::string(term.meaning) + ".", ""});
-  }
-  for (const RivalTerm& term : rival_terms()) {
-    list.add(
-        "rival_" + std::string(term.name), weights.per_rival.*term.figure, -1e3, 1e3,
-        {"", "Plausibility of another pose: per " + std::string(term.meaning) + " more than the best pose has.", ""});
-  }
+           "A corridor, or one wall, leaves it sliding; raise it where that does not matter."});
+  weights.describe(list);
 }
 
 std::size_t strongest_rival(const std::vector<Hypothesis>& ranked) {

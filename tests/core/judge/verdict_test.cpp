@@ -378,6 +378,7 @@ TEST(Rivals, AddUpToADoubt) {
   const RivalFigures cleaner{.log_conflict = -0.5, .elastic_gain = 0.1, .log_overlap_share = 0.3};
   EXPECT_NEAR(plausibility(cleaner, weights), std::exp(0.5 + 0.5 + 0.6), 1e-9);
   EXPECT_TRUE(std::isfinite(log_rivals({{.log_conflict = -1e9}}, weights)));
+  EXPECT_EQ(plausibility({.log_conflict = -1e9}, weights), std::exp(12));  // no more doubt than that can be had
   EXPECT_EQ(sizeof(RivalFigures), rival_terms().size() * sizeof(double));  // none is forgotten
 }
 
