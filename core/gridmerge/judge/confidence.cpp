@@ -19,9 +19,8 @@ constexpr std::array kTerms = {
     ConfidenceTerm{"log_deviations", &F::log_deviations, "natural logarithm of the deviations above random poses"},
     ConfidenceTerm{"log_both_far", &F::log_both_far, "natural logarithm of both_far_conflict_share, 0.005 added"},
     ConfidenceTerm{"furniture", &F::furniture, "unit of furniture_conflict_share"},
-    ConfidenceTerm{"both_furniture", &F::both_furniture, "unit of both_furniture_conflict_share"},
+    ConfidenceTerm{"both_furniture", &F::both_furniture, "unit of elastic_both_furniture_conflict_share"},
     ConfidenceTerm{"fittings", &F::fittings, "unit of fittings_conflict_share"},
-    ConfidenceTerm{"elastic_gain", &F::elastic_gain, "unit of conflict share that shifted patches take away"},
     ConfidenceTerm{"roughness", &F::roughness, "metre of elastic_roughness"},
     ConfidenceTerm{"log_overlap_share", &F::log_overlap_share, "natural logarithm of overlap_share"},
     ConfidenceTerm{"log_weak", &F::log_weak, "natural logarithm of the weakest direction's standard deviation [m]"},
@@ -30,7 +29,8 @@ constexpr std::array kTerms = {
 
 constexpr std::array kRivalTerms = {
     RivalTerm{"log_conflict", &RivalFigures::log_conflict, "unit of ln(conflict_share + 0.01)"},
-    RivalTerm{"elastic_gain", &RivalFigures::elastic_gain, "unit of conflict share that shifted patches take away"},
+    RivalTerm{"elastic_gain", &RivalFigures::elastic_gain,
+              "unit of conflict share that goes away where the maps may bend"},
     RivalTerm{"log_overlap_share", &RivalFigures::log_overlap_share, "unit of ln(overlap_share)"},
 };
 

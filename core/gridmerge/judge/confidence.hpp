@@ -20,9 +20,8 @@ struct ConfidenceFigures {
   // Walls in free space.
   double log_both_far = 0;    ///< ln of Figures::both_far_conflict_share, 0.005 added: the first of it says most
   double furniture = 0;       ///< Figures::furniture_conflict_share
-  double both_furniture = 0;  ///< Figures::both_furniture_conflict_share
+  double both_furniture = 0;  ///< Figures::elastic_both_furniture_conflict_share
   double fittings = 0;        ///< Figures::fittings_conflict_share
-  double elastic_gain = 0;    ///< conflict_share that goes away with every patch shifted by itself
   double roughness = 0;       ///< Figures::elastic_roughness_m
   // How much there is in common.
   double log_overlap_share = 0;  ///< ln of the overlap's share of the smaller map, at least 1 %
@@ -34,7 +33,7 @@ struct ConfidenceFigures {
 /// What another pose has more than the best one.
 struct RivalFigures {
   double log_conflict = 0;       ///< ln of Figures::conflict_share, 0.01 added
-  double elastic_gain = 0;       ///< conflict_share that goes away with every patch shifted by itself
+  double elastic_gain = 0;       ///< conflict_share that goes away where the maps may bend
   double log_overlap_share = 0;  ///< ln of Figures::overlap_share, at least 1 %
 };
 

@@ -63,24 +63,26 @@ void add_piece_figures(Figures& f) {
     const PieceMeeting& legs = met.pieces[static_cast<std::size_t>(Piece::kLegs)];
     return share(met.far_in_free_m - legs.far_in_free_m, met.same_side_m - legs.same_side_m + 1);
   };
-  const auto furniture_of = [](const WallMeeting& met) {
-    const PieceMeeting& furniture = met.pieces[static_cast<std::size_t>(Piece::kFurniture)];
-    return share(furniture.in_free_m, furniture.same_side_m + 1);
-  };
   f.both_far_conflict_share = std::min(far_of(f.source_in_target), far_of(f.target_in_source));
   f.furniture_conflict_share = both_ways(Piece::kFurniture);
-  f.both_furniture_conflict_share = std::min(furniture_of(f.source_in_target), furniture_of(f.target_in_source));
   f.fittings_conflict_share = both_ways(Piece::kFittings);
 }
 
-/// From both ways with every patch shifted by itself.
-void add_elastic_figures(Figures& f, const ElasticMeeting& there, const ElasticMeeting& back) {
-  f.elastic_conflict_share = share(there.in_free_m + back.in_free_m, there.same_side_m + back.same_side_m);
+/// From both ways with the maps bent.
+void add_elastic_figures(Figures& f, const ElasticMeeting& there, const ElasticMeeting& back, double conflict_weight) {
+  const double same_side = there.same_side_m + back.same_side_m;
+  const double in_free = there.in_free_m + back.in_free_m;
+  const auto furniture_of = [](const ElasticMeeting& met) {
+    return share(met.furniture_in_free_m, met.furniture_same_side_m + 1);
+  };
+  f.elastic_evidence_m = same_side - conflict_weight * in_free;
+  f.elastic_conflict_share = share(in_free, same_side);
+  f.elastic_both_furniture_conflict_share = std::min(furniture_of(there), furniture_of(back));
   // As rough as two places that are not the same, where there is little to tell by.
   constexpr double kStrange_m = 0.4;
   constexpr double kLittle_m = 2;
   f.elastic_roughness_m =
-      (there.shift_m + back.shift_m + kStrange_m * kLittle_m) / (there.beside_m + back.beside_m + kLittle_m);
+      (there.astray_m2 + back.astray_m2 + kStrange_m * kLittle_m) / (there.expected_m + back.expected_m + kLittle_m);
 }
 
 }  // namespace
@@ -113,9 +115,10 @@ std::vector<std::pair<std::string, double>> Figures::named() const {
           {"same_side_share", same_side_share},
           {"both_far_conflict_share", both_far_conflict_share},
           {"furniture_conflict_share", furniture_conflict_share},
-          {"both_furniture_conflict_share", both_furniture_conflict_share},
           {"fittings_conflict_share", fittings_conflict_share},
+          {"elastic_evidence_m", elastic_evidence_m},
           {"elastic_conflict_share", elastic_conflict_share},
+          {"elastic_both_furniture_conflict_share", elastic_both_furniture_conflict_share},
           {"elastic_roughness_m", elastic_roughness_m},
           {"source_walls_m", source_in_target.all_m},
           {"source_confirmed_m", source_in_target.confirmed_m},
@@ -223,7 +226,8 @@ Figures Evaluator::rival_figures(const Pose2& target_from_source) const {
   const Pose2 local = to_local(target_from_source, *target_.map, *source_.map);
   add_cell_figures(f, local, kEvery);
   add_elastic_figures(f, meet_elastically(target_, source_, local, options_.tolerance_m),
-                      meet_elastically(source_, target_, inverse(local), options_.tolerance_m));
+                      meet_elastically(source_, target_, inverse(local), options_.tolerance_m),
+                      options_.conflict_weight);
   return f;
 }
 
@@ -241,7 +245,7 @@ Figures Evaluator::figures(const Pose2& target_from_source, int num_threads) con
       [&] { psi_open = psi_cells(local, CellState::kOpen); }, [&] { psi_wall = psi_cells(local, CellState::kWall); }};
   parallel_for(parts.size(), num_threads, [&](std::size_t i, std::size_t) { parts[i](); });
 
-  add_elastic_figures(f, there, back);
+  add_elastic_figures(f, there, back, options_.conflict_weight);
   f.psi_cells = psi_open + psi_wall;                                                     // Eq. 2.6
   f.delta = f.psi_cells + options_.c_lock * (f.disagreement_cells - f.agreement_cells);  // Eq. 2.5
   return f;

@@ -58,15 +58,17 @@ struct Figures {
   // By pieces. "Both": the lesser of the two ways, with a metre of agreement added. A plan lacks the furniture, but
   // what each map has where the other is free was moved, or is of another place. The others: both ways taken together,
   // with half a metre more of either, so that where there are no such pieces nothing is known.
-  double both_far_conflict_share = 0;        ///< far_in_free / (far_in_free + same_side) of all but legs
-  double furniture_conflict_share = 0;       ///< in_free / (in_free + same_side) of furniture
-  double both_furniture_conflict_share = 0;  ///< the same
-  double fittings_conflict_share = 0;        ///< the same of fittings
+  double both_far_conflict_share = 0;   ///< far_in_free / (far_in_free + same_side) of all but legs
+  double furniture_conflict_share = 0;  ///< in_free / (in_free + same_side) of furniture
+  double fittings_conflict_share = 0;   ///< the same of fittings
 
-  // With every patch shifted by itself (elastic.hpp).
-  double elastic_conflict_share = 0;  ///< in_free_m / (in_free_m + same_side_m), both ways
-  /// How far the shifts of neighbouring patches differ on average, by their walls and fittings, both ways; with 2 m of
-  /// walls added that differ by 0.4 m, as where two places are not the same: where there is little to tell by, little
+  // With the maps bent over each other (elastic.hpp), both ways.
+  double elastic_evidence_m = 0;      ///< same_side_m - conflict_weight * in_free_m
+  double elastic_conflict_share = 0;  ///< in_free_m / (in_free_m + same_side_m)
+  /// in_free / (in_free + same_side) of furniture, "both" as above: of a bent map little else stands where nothing is.
+  double elastic_both_furniture_conflict_share = 0;
+  /// How far patches fit from where those beside them put them, on average, by their walls and fittings; with 2 m of
+  /// walls added that are off by 0.4 m, as where two places are not the same: where there is little to tell by, little
   /// is known.
   double elastic_roughness_m = 0;
 
@@ -104,7 +106,7 @@ class Evaluator {
   [[nodiscard]] double evidence_m(const Pose2& target_from_source) const;
   /// The wall figures only; the rest is zero.
   [[nodiscard]] Figures wall_figures(const Pose2& target_from_source) const;
-  /// What a pose is held against the best one by: the wall figures, those of shifted patches, and the cell by cell ones
+  /// What a pose is held against the best one by: the wall figures, those of bent maps, and the cell by cell ones
   /// of every 16th cell; the rest is zero.
   [[nodiscard]] Figures rival_figures(const Pose2& target_from_source) const;
   /// All figures.

@@ -62,9 +62,8 @@ ConfidenceFigures unrivalled_figures(const Hypothesis& one, const Background& ba
   c.log_deviations = std::log(std::max(0.1, deviations));
   c.log_both_far = log_far(f.both_far_conflict_share);
   c.furniture = f.furniture_conflict_share;
-  c.both_furniture = f.both_furniture_conflict_share;
+  c.both_furniture = f.elastic_both_furniture_conflict_share;
   c.fittings = f.fittings_conflict_share;
-  c.elastic_gain = elastic_gain(f);
   c.roughness = f.elastic_roughness_m;
   c.log_overlap_share = log_overlap_share(f);
   c.log_weak = std::log(std::max(kFinest, weak ? weak->deviation_m : kNotKnown));
@@ -135,20 +134,23 @@ std::optional<std::string> not_fixed(const std::optional<WeakDirection>& weak, c
          fixed(weak->deviation_m, 2) + " m";
 }
 
+using Evidence = double Figures::*;
+
 /// Where a pose lies, and how its evidence compares.
-std::string in_words(const Hypothesis& one, const Hypothesis& best) {
+std::string in_words(const Hypothesis& one, const Hypothesis& best, Evidence evidence) {
   const Pose2& pose = one.target_from_source.pose;
-  const double best_m = best.figures.evidence_m;
+  const double best_m = best.figures.*evidence;
   return "x " + fixed(pose.x_m, 2) + " m, y " + fixed(pose.y_m, 2) + " m, theta " + fixed(degrees(pose.theta_rad), 1) +
-         " deg, with " + percent(best_m > 0 ? one.figures.evidence_m / best_m : 1) + " of the evidence";
+         " deg, with " + percent(best_m > 0 ? one.figures.*evidence / best_m : 1) + " of the evidence";
 }
 
 /// "at A; at B; and 2 more"
-std::string in_words(const std::vector<const Hypothesis*>& poses, const Hypothesis& best) {
+std::string in_words(const std::vector<const Hypothesis*>& poses, const Hypothesis& best,
+                     Evidence evidence = &Figures::evidence_m) {
   constexpr std::size_t kMost = 4;
   std::string text;
   for (std::size_t i = 0; i < std::min(kMost, poses.size()); ++i) {
-    text += (i == 0 ? "at " : "; at ") + in_words(*poses[i], best);
+    text += (i == 0 ? "at " : "; at ") + in_words(*poses[i], best, evidence);
   }
   return poses.size() > kMost ? text + "; and " + std::to_string(poses.size() - kMost) + " more" : text;
 }
@@ -185,22 +187,21 @@ double VerdictOptions::needed_confidence() const {
 
 // configs/learned/verdict.yaml; a test holds the two together.
 ConfidenceWeights VerdictOptions::learned_weights() {
-  return {.bias = 9.0597,
-          .per = {.log_lead = 0.3606,
-                  .log_rivals = -2.2782,
-                  .spotless_rival = -1.7801,
-                  .decoy_doubt = -3.116,
-                  .log_deviations = -2.3742,
-                  .log_both_far = -0.7011,
-                  .furniture = -1.6949,
-                  .both_furniture = -8.2615,
-                  .fittings = -1.475,
-                  .elastic_gain = 7.0193,
-                  .roughness = -1.8762,
-                  .log_overlap_share = 1.0834,
-                  .log_weak = 0.9883,
-                  .weak_direction = -2.4489},
-          .per_rival = {.log_conflict = -0.9031, .elastic_gain = 12.8329, .log_overlap_share = 1.1239}};
+  return {.bias = 9.6303,
+          .per = {.log_lead = 0.3297,
+                  .log_rivals = -2.4292,
+                  .spotless_rival = -1.4232,
+                  .decoy_doubt = -3.3944,
+                  .log_deviations = -2.304,
+                  .log_both_far = -0.782,
+                  .furniture = -2.4427,
+                  .both_furniture = -6.0568,
+                  .fittings = -1.699,
+                  .roughness = -1.854,
+                  .log_overlap_share = 1.1374,
+                  .log_weak = 1.1053,
+                  .weak_direction = -2.7996},
+          .per_rival = {.log_conflict = -0.7908, .elastic_gain = 11.8518, .log_overlap_share = 0.9169}};
 }
 
 void VerdictOptions::describe(OptionList& list) {
@@ -225,7 +226,9 @@ void VerdictOptions::describe(OptionList& list) {
            {"m", "Least evidence: walls that agree less those in the other's free space, as weighed by the evaluator.",
             "Lower it for very small places; a pose that hardly agrees in more than it conflicts may then merge."})
       .add("min_lead", min_lead, 0, 1,
-           {"", "Least lead in evidence over any other pose with no more conflict (but for 8 %), as a share.",
+           {"",
+            "Least lead in evidence, of maps that may bend, over any other pose with no more conflict (but for 8 %), a "
+            "share.",
             "Lower it and look-alike places get merged wrongly."})
       .add("max_conflict_share", max_conflict_share, 0, 1,
            {"", "Greatest share of walls in the other's free space, of those in the overlap.",
@@ -327,7 +330,8 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
                       " wanted");
   }
   v.vetoed = !nothing.empty();
-  // A rival with about as much evidence is a doubt, unless it has far more conflict: it then lies on more.
+  // A rival with about as much evidence is a doubt, unless it has far more conflict: it then lies on more. Where the
+  // maps may bend, the right pose has the evidence that drift took from it; a wrong one gains nothing.
   std::vector<const Hypothesis*> as_good;
   // Laid over each other as far as they go, two halves of a symmetric hall agree in more than where they really meet. A
   // lead says nothing then: a pose without conflict cannot be ruled out. Of the weak ones some have no conflict only
@@ -336,7 +340,8 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
   for (std::size_t i = 1; i < ranked.size(); ++i) {
     const Hypothesis& one = ranked[i];
     const Figures& f = one.figures;
-    if (f.evidence_m > (1 - o.min_lead) * best.evidence_m && f.conflict_share < best.conflict_share + kAsClean) {
+    if (i < kCompared && f.evidence_m > 0 && f.elastic_evidence_m > (1 - o.min_lead) * best.elastic_evidence_m &&
+        f.elastic_conflict_share < best.elastic_conflict_share + kAsClean) {
       as_good.push_back(&one);
     }
     if (is_spotless(f, o) && f.evidence_m >= o.spotless_evidence_share * best.evidence_m) {
@@ -350,7 +355,8 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
                       fixed(unrivalled, 2) + " if no other pose came near; " + fixed(needed, 2) + " wanted");
   }
   if (!as_good.empty()) {
-    doubts.push_back("another pose fits about as well: " + in_words(as_good, first));
+    doubts.push_back("another pose fits about as well when the maps may bend: " +
+                     in_words(as_good, first, &Figures::elastic_evidence_m));
   } else if (v.confidence < needed && nothing.empty()) {
     const std::string wanted = "confidence " + fixed(v.confidence, 2) + " of " + fixed(needed, 2) + " wanted, " +
                                fixed(unrivalled, 2) + " if no other pose came near";

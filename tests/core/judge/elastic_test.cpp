@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/align/drawn_place.hpp"
+#include "gridmerge/judge/evaluator.hpp"
 
 namespace gridmerge {
 namespace {
@@ -17,6 +18,21 @@ OccupancyGrid bent(const OccupancyGrid& grid, int cells) {
   for (int row = 0; row < grid.geometry.height; ++row) {
     for (int column = grid.geometry.width / 2; column < grid.geometry.width; ++column) {
       const CellIndex from = {column, row - cells};
+      result.at({column, row}) = grid.geometry.contains(from) ? grid.at(from) : kUnknown;
+    }
+  }
+  return result;
+}
+
+/// The grid with every column pushed up by the square of its distance from the left border, `cells` at the right one:
+/// what drift makes of a long place.
+OccupancyGrid curved(const OccupancyGrid& grid, int cells) {
+  OccupancyGrid result = grid;
+  for (int column = 0; column < grid.geometry.width; ++column) {
+    const double along = static_cast<double>(column) / grid.geometry.width;
+    const int up = static_cast<int>(std::lround(cells * along * along));
+    for (int row = 0; row < grid.geometry.height; ++row) {
+      const CellIndex from = {column, row - up};
       result.at({column, row}) = grid.geometry.contains(from) ? grid.at(from) : kUnknown;
     }
   }
@@ -37,15 +53,25 @@ TEST(Elastic, AMapFitsItselfWithoutAShift) {
   const ElasticMeeting met = meet(grid, grid, {});
   EXPECT_GT(met.same_side_m, 50);
   EXPECT_LT(conflict(met), 0.01);
-  EXPECT_EQ(met.shift_m, 0);
-  EXPECT_GT(met.beside_m, 0);
+  EXPECT_EQ(met.astray_m2, 0);
+  EXPECT_GT(met.expected_m, 0);
 }
 
 TEST(Elastic, ABentMapFitsWithShiftsThatDiffer) {
   const OccupancyGrid grid = drawn(Place::kFlat, {});
   const ElasticMeeting met = meet(grid, bent(grid, 8), {});  // 0.4 m, twice the tolerance
   EXPECT_LT(conflict(met), 0.08);
-  EXPECT_GT(met.shift_m / met.beside_m, 0.05);
+  EXPECT_GT(met.astray_m2 / met.expected_m, 0.05);
+}
+
+TEST(Elastic, ABendIsFollowedFartherThanAPatchMayStray) {
+  const OccupancyGrid grid = drawn(Place::kFlat, {});
+  const OccupancyGrid moving = curved(grid, 20);  // 1 m, where a patch is looked for 0.4 m off
+  const ElasticMeeting met = meet(grid, moving, {});
+  EXPECT_LT(conflict(met), 0.08);
+  const PreparedMap a(grid, 0.05);
+  const PreparedMap b(moving, 0.05);
+  EXPECT_GT(Evaluator(a, b, {}).wall_figures({}).conflict_share, 0.2);
 }
 
 TEST(Elastic, AWrongPoseFitsNoBetterForIt) {
@@ -71,8 +97,8 @@ OccupancyGrid hall_with_boxes(int pushed_cells) {
 TEST(Elastic, FurnitureThatWasPushedBendsNoMap) {
   const ElasticMeeting met = meet(hall_with_boxes(0), hall_with_boxes(8), {});
   EXPECT_LT(conflict(met), 0.05);  // its patches did shift ...
-  EXPECT_GT(met.beside_m, 0);
-  EXPECT_EQ(met.shift_m, 0);  // ... but those of the walls did not
+  EXPECT_GT(met.expected_m, 0);
+  EXPECT_NEAR(met.astray_m2 / met.expected_m, 0, 0.005);  // ... but those of the walls did not
 }
 
 TEST(Elastic, NothingIsSaidWhereTheMapsDoNotMeet) {
@@ -80,7 +106,7 @@ TEST(Elastic, NothingIsSaidWhereTheMapsDoNotMeet) {
   const ElasticMeeting met = meet(grid, grid, {1000, 0, 0});
   EXPECT_EQ(met.same_side_m, 0);
   EXPECT_EQ(met.in_free_m, 0);
-  EXPECT_EQ(met.beside_m, 0);
+  EXPECT_EQ(met.expected_m, 0);
 }
 
 }  // namespace

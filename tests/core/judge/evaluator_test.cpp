@@ -173,9 +173,9 @@ TEST(Evaluator, FurnitureElsewhereSpeaksAgainstAPoseThatItsWallsFit) {
   const Figures same = at_home(here, here);
   const Figures moved = at_home(here, elsewhere);
   EXPECT_LT(same.furniture_conflict_share, 0.2);
-  EXPECT_EQ(same.both_furniture_conflict_share, 0);
+  EXPECT_EQ(same.elastic_both_furniture_conflict_share, 0);
   EXPECT_GT(moved.furniture_conflict_share, 0.8);
-  EXPECT_GT(moved.both_furniture_conflict_share, 0.6);
+  EXPECT_GT(moved.elastic_both_furniture_conflict_share, 0.6);
   EXPECT_GT(moved.both_far_conflict_share, 0.1);
 }
 
@@ -185,14 +185,14 @@ TEST(Evaluator, LegsElsewhereAreNoFurnitureElsewhere) {
   const Figures f = at_home(here, pushed);
   EXPECT_GT(f.conflict_share, 0);
   EXPECT_LT(f.furniture_conflict_share, 0.2);
-  EXPECT_EQ(f.both_furniture_conflict_share, 0);
+  EXPECT_EQ(f.elastic_both_furniture_conflict_share, 0);
   EXPECT_EQ(f.both_far_conflict_share, 0);
 }
 
 TEST(Evaluator, WhatAPlanLacksStandsInItsFreeSpaceOneWayOnly) {
   const Figures f = at_home(room_with({}), room_with({kCupboard}));
   EXPECT_GT(f.furniture_conflict_share, 0.8);
-  EXPECT_EQ(f.both_furniture_conflict_share, 0);
+  EXPECT_EQ(f.elastic_both_furniture_conflict_share, 0);
   EXPECT_EQ(f.both_far_conflict_share, 0);
 }
 
@@ -432,6 +432,7 @@ TEST(Evaluator, TellsOfARivalWhatItTellsOfTheBestPose) {
     const Figures some = evaluator.rival_figures(pose);
     EXPECT_EQ(some.evidence_m, all.evidence_m);
     EXPECT_EQ(some.conflict_share, all.conflict_share);
+    EXPECT_EQ(some.elastic_evidence_m, all.elastic_evidence_m);
     EXPECT_EQ(some.elastic_conflict_share, all.elastic_conflict_share);
     EXPECT_EQ(some.elastic_roughness_m, all.elastic_roughness_m);
     EXPECT_NEAR(some.overlap_area_m2, all.overlap_area_m2, 0.3 + 0.03 * all.overlap_area_m2);
