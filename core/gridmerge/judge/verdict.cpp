@@ -340,7 +340,8 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
   for (std::size_t i = 1; i < ranked.size(); ++i) {
     const Hypothesis& one = ranked[i];
     const Figures& f = one.figures;
-    if (i < kCompared && f.evidence_m > 0 && f.elastic_evidence_m > (1 - o.min_lead) * best.elastic_evidence_m &&
+    if (o.min_lead > 0 && i < kCompared && f.evidence_m > 0 &&
+        f.elastic_evidence_m > (1 - o.min_lead) * best.elastic_evidence_m &&
         f.elastic_conflict_share < best.elastic_conflict_share + kAsClean) {
       as_good.push_back(&one);
     }

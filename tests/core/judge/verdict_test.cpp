@@ -198,6 +198,10 @@ TEST(Verdict, WhichPoseFitsAsWellIsAskedOfMapsThatMayBend) {
   const Verdict v = judged({best, rival}, kChance, always_confident());
   EXPECT_EQ(v.outcome, Outcome::kAmbiguous);
   EXPECT_THAT(v.reasons.front(), AllOf(HasSubstr("fits about as well"), HasSubstr("with 85 % of the evidence")));
+  VerdictOptions no_lead = always_confident();
+  no_lead.min_lead = 0;  // whatever the other one has
+  rival.figures.elastic_evidence_m = 2 * best.figures.elastic_evidence_m;
+  EXPECT_EQ(judged({best, rival}, kChance, no_lead).outcome, Outcome::kMerged);
 }
 
 TEST(Verdict, ListsEveryPoseThatFitsAsWell) {
