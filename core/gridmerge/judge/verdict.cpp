@@ -228,7 +228,7 @@ void VerdictOptions::describe(OptionList& list) {
       .add("min_lead", min_lead, 0, 1,
            {"",
             "Least lead in evidence, of maps that may bend, over any other pose with no more conflict (but for 8 %), a "
-            "share.",
+            "share; 0 asks for none.",
             "Lower it and look-alike places get merged wrongly."})
       .add("max_conflict_share", max_conflict_share, 0, 1,
            {"", "Greatest share of walls in the other's free space, of those in the overlap.",
