@@ -30,8 +30,8 @@ struct Bend {
 struct PlacedWall {
   int column = 0;
   int row = 0;
-  float right = 0;         ///< of the patch's centre
-  float up = 0;            ///< of it
+  float right = 0;         ///< of the patch's centre, by so many cells
+  float up = 0;            ///< likewise
   std::uint8_t sides = 0;  ///< bits of SidedMap::seen_from that are its own; all where its side is not known
   double same_side = 0;    ///< what it counts where one of them is set
   Piece piece = Piece::kWall;

@@ -40,7 +40,9 @@ struct SidedMap {
 /// The bit that is set in SidedMap::seen_from where a wall was seen from this one's side, after its map was turned; all
 /// bits where its side is not known.
 [[nodiscard]] inline std::uint8_t sides_of(const SidedWall& wall, int turn_64ths) {
-  if (!wall.side.known) return 0xFF;
+  if (!wall.side.known) {
+    return 0xFF;
+  }
   return static_cast<std::uint8_t>(1U << wall.side.octant_after_64ths(turn_64ths));
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "core/align/drawn_place.hpp"
 #include "gridmerge/judge/evaluator.hpp"
@@ -12,31 +13,29 @@ namespace {
 
 constexpr double kTolerance = 0.2;
 
-/// The grid with its right half pushed up by so many cells.
-OccupancyGrid bent(const OccupancyGrid& grid, int cells) {
+/// The grid with each of its columns pushed up by so many cells.
+OccupancyGrid pushed_up(const OccupancyGrid& grid, const std::function<int(int column)>& cells) {
   OccupancyGrid result = grid;
   for (int row = 0; row < grid.geometry.height; ++row) {
-    for (int column = grid.geometry.width / 2; column < grid.geometry.width; ++column) {
-      const CellIndex from = {column, row - cells};
+    for (int column = 0; column < grid.geometry.width; ++column) {
+      const CellIndex from = {column, row - cells(column)};
       result.at({column, row}) = grid.geometry.contains(from) ? grid.at(from) : kUnknown;
     }
   }
   return result;
 }
 
-/// The grid with every column pushed up by the square of its distance from the left border, `cells` at the right one:
-/// what drift makes of a long place.
+/// Its right half by so many cells.
+OccupancyGrid bent(const OccupancyGrid& grid, int cells) {
+  return pushed_up(grid, [&](int column) { return column < grid.geometry.width / 2 ? 0 : cells; });
+}
+
+/// By the square of the distance from the left border, `cells` at the right one: what drift makes of a long place.
 OccupancyGrid curved(const OccupancyGrid& grid, int cells) {
-  OccupancyGrid result = grid;
-  for (int column = 0; column < grid.geometry.width; ++column) {
+  return pushed_up(grid, [&](int column) {
     const double along = static_cast<double>(column) / grid.geometry.width;
-    const int up = static_cast<int>(std::lround(cells * along * along));
-    for (int row = 0; row < grid.geometry.height; ++row) {
-      const CellIndex from = {column, row - up};
-      result.at({column, row}) = grid.geometry.contains(from) ? grid.at(from) : kUnknown;
-    }
-  }
-  return result;
+    return static_cast<int>(std::lround(cells * along * along));
+  });
 }
 
 double conflict(const ElasticMeeting& met) { return met.in_free_m / (met.in_free_m + met.same_side_m); }
