@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -18,8 +19,11 @@ constexpr std::size_t kClimbed = 6;
 /// Walls of each map that a pose is weighed by while climbing.
 constexpr std::size_t kMaxPoints = 1500;
 
-/// Cells of 0.2 m, of 0.4 m for larger maps.
-constexpr LatticeOptions kLattice{.angle_step_rad = radians(5), .coarsest_level = 3, .max_cells = 200};
+/// Cells of 0.4 m; of 0.2 m for maps that laid side by side span less than 20 m.
+constexpr LatticeOptions kLattice{.angle_step_rad = radians(5), .coarsest_level = 3, .max_cells = 100};
+
+/// Of the PreparedMaps: what is climbed on, in cells of 0.2 m.
+constexpr int kFitLevel = 2;
 
 /// Which way a map's walls run, by 5 degrees of a quarter turn; of neighbouring bins some is shared.
 using WallDirections = std::array<double, 18>;
@@ -68,8 +72,7 @@ double best_climb(const WallFit& fitness, std::vector<ScoredPose> poses, double 
   const std::vector<ScoredPose> starts = distinct_poses(std::move(poses), {1, radians(6)}, kClimbed);
   std::vector<double> tops(starts.size());
   parallel_for(starts.size(), num_threads, [&](std::size_t i, std::size_t) {
-    tops[i] =
-        climb(fitness, starts[i].pose, {resolution_m, radians(2)}, {resolution_m / 4, radians(0.5)}, window).score;
+    tops[i] = climb(fitness, starts[i].pose, {resolution_m, radians(2)}, {0.05, radians(0.5)}, window).score;
   });
   return std::accumulate(tops.begin(), tops.end(), 0.0, [](double a, double b) { return std::max(a, b); });
 }
@@ -124,16 +127,22 @@ Decoy::Decoy(const AlignRequest& request, const RunContext& context)
   // The smaller map is the one to turn: the transform is then smaller. A window lies in the target's frame, and stays.
   const bool swapped = !window_ && source_.radius_m() > target_.radius_m();
   const PreparedMap& fixed = swapped ? source_ : target_;
-  const PreparedMap moving = (swapped ? target_ : source_).mirrored(kLattice.finest_level);
-  PoseLattice lattice(fixed, moving, window_, kLattice);
-  if (!window_) {
-    keep_the_likely_third(lattice, fixed, moving);
-  }
-  resolution_m_ = lattice.resolution_m();
-  const WallFit fitness(fixed, moving, lattice.level(), {}, kMaxPoints);
-  best_ = best_climb(fitness, swept(lattice, window_, fitness, context, stopped_), resolution_m_, window_,
+  const PreparedMap moving = (swapped ? target_ : source_).mirrored(kFitLevel);
+  std::optional<PoseLattice> lattice;
+  std::optional<WallFit> mirrored_fit;
+  const std::array<std::function<void()>, 3> parts = {
+      [&] {
+        lattice.emplace(fixed, moving, window_, kLattice);
+        if (!window_) {
+          keep_the_likely_third(*lattice, fixed, moving);
+        }
+      },
+      [&] { mirrored_fit.emplace(fixed, moving, kFitLevel, WallFitOptions{}, kMaxPoints); },
+      [&] { fit_.emplace(target_, source_, kFitLevel, WallFitOptions{}, kMaxPoints); }};
+  parallel_for(parts.size(), context.num_threads, [&](std::size_t i, std::size_t) { parts[i](); });
+  resolution_m_ = lattice->resolution_m();
+  best_ = best_climb(*mirrored_fit, swept(*lattice, window_, *mirrored_fit, context, stopped_), resolution_m_, window_,
                      context.num_threads);
-  fit_.emplace(target_, source_, lattice.level(), WallFitOptions{}, kMaxPoints);
 }
 
 double Decoy::fit_of(const std::vector<Candidate>& candidates, int num_threads) const {
