@@ -90,11 +90,31 @@ TEST(Learn, TheSecondChanceIsWhatAnotherMethodDidThere) {
     rows.push_back(second);
   }
   const WeightedSum chance = learn(rows).second_chance;
-  const auto of = [&](double ambiguous) {
-    return 1 / (1 + std::exp(-chance.of({{"bias", 1}, {"log_odds", std::log(0.3 / 0.7)}, {"ambiguous", ambiguous}})));
+  const auto of = [&](bool ambiguous) {
+    return 1 / (1 + std::exp(-chance.of(second_chance_inputs(0.3, ambiguous))));
   };
-  EXPECT_GT(of(1), 0.8);
-  EXPECT_LT(of(0), 0.2);
+  EXPECT_GT(of(true), 0.8);
+  EXPECT_LT(of(false), 0.2);
+}
+
+/// A gate leaves the confidence at a half, where nobody else merges; above it little is missing. One slope through both
+/// would say the same of either.
+TEST(Learn, ANearMissHasItsOwnSecondChance) {
+  std::vector<Row> rows;
+  for (int pair = 0; pair < 300; ++pair) {
+    const bool near_miss = pair % 3 == 0;
+    Row first = run_of("first", pair, "missed", 0.1);
+    first.confidence = near_miss ? 0.7 : pair % 3 == 1 ? 0.5 : 0.01;
+    rows.push_back(first);
+    rows.push_back(run_of("second", pair, near_miss ? "right" : "missed", 0.1));
+  }
+  for (Row& row : rows) {
+    row.status = row.result == "right" ? "merged" : "ambiguous";
+  }
+  const WeightedSum chance = learn(rows).second_chance;
+  EXPECT_GT(chance.of(second_chance_inputs(0.75, true)), 0);
+  EXPECT_LT(chance.of(second_chance_inputs(0.5, true)), -1);
+  EXPECT_LT(chance.of(second_chance_inputs(0.01, true)), -1);
 }
 
 TEST(Learn, LeavesOutWhatTellsNothingOfAMethod) {

@@ -76,7 +76,8 @@ double WeightedSum::of(const NamedValues& inputs) const {
 }
 
 NamedValues second_chance_inputs(double confidence, bool is_ambiguous) {
-  return {{"bias", 1}, {"log_odds", log_odds(confidence)}, {"ambiguous", is_ambiguous ? 1 : 0}};
+  const double odds = log_odds(confidence);
+  return {{"bias", 1}, {"log_odds", odds}, {"above_half", std::max(0.0, odds)}, {"ambiguous", is_ambiguous ? 1 : 0}};
 }
 
 std::vector<std::string> second_chance_names() {

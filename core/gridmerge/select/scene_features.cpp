@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kHoughLevel = 1;
 constexpr double kAngleStep = radians(2);
-constexpr double kMostPoints = 4000;
+constexpr double kMostPoints = 2000;
 constexpr double kDominant = 0.3;  // of the way from the spectrum's mean to its maximum
 
 /// HS(k) = sum over rho of HT(rho, k)^2 (Eq. 2.9), for lines of all directions modulo half a turn.
@@ -30,8 +30,9 @@ std::vector<double> hough_spectrum(const PreparedMap& map) {
     const auto s = static_cast<float>(std::sin(k * kAngleStep) / level.resolution_m);
     std::fill(lines.begin(), lines.end(), 0.0F);
     for (std::size_t i = 0; i < walls.size(); i += step) {
-      const int rho = static_cast<int>(std::lround(c * walls[i].at.x_m + s * walls[i].at.y_m));
-      lines[static_cast<std::size_t>(std::clamp(rho + reach, 0, 2 * reach))] += walls[i].weight;
+      // Above 0, so a cast rounds down: to the nearest, with the half.
+      const float rho = c * walls[i].at.x_m + s * walls[i].at.y_m + static_cast<float>(reach) + 0.5F;
+      lines[static_cast<std::size_t>(std::clamp(static_cast<int>(rho), 0, 2 * reach))] += walls[i].weight;
     }
     for (const float votes : lines) {
       spectrum[static_cast<std::size_t>(k)] += static_cast<double>(votes) * votes;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace gridmerge {
@@ -84,6 +85,22 @@ TEST(BidBook, BidsBySumsOfWeightedInputs) {
   EXPECT_NEAR(bid->success, 1 / (1 + std::exp(-1)), 1e-12);
   EXPECT_NEAR(bid->seconds, std::exp(-3 + 0.5 * std::log(14000)), 1e-9);
   EXPECT_FALSE(bid_of(book, "unheard_of", inputs));
+}
+
+TEST(BidBook, ASecondChanceSeesHowFarTheConfidenceIsAboveAHalf) {
+  const auto input = [](double confidence, const std::string& name) {
+    for (const auto& [key, value] : second_chance_inputs(confidence, true)) {
+      if (key == name) {
+        return value;
+      }
+    }
+    return std::numeric_limits<double>::quiet_NaN();
+  };
+  EXPECT_NEAR(input(0.75, "above_half"), std::log(3), 1e-9);
+  EXPECT_EQ(input(0.5, "above_half"), 0);
+  EXPECT_EQ(input(0.2, "above_half"), 0);
+  EXPECT_NEAR(input(0.2, "log_odds"), -std::log(4), 1e-9);
+  EXPECT_EQ(input(0.2, "ambiguous"), 1);
 }
 
 TEST(BidBook, RefusesAWeightForWhatIsNoInput) {
