@@ -11,7 +11,6 @@ namespace {
 using F = ConfidenceFigures;
 
 constexpr std::array kTerms = {
-    ConfidenceTerm{"log_lead", &F::log_lead, "natural logarithm of the lead in evidence [m]"},
     ConfidenceTerm{"log_rivals", &F::log_rivals, "natural logarithm of 1 and the other poses' plausibilities"},
     ConfidenceTerm{"spotless_rival", &F::spotless_rival, "unit of the evidence share of the strongest spotless rival"},
     ConfidenceTerm{"decoy_doubt", &F::decoy_doubt,
@@ -20,8 +19,7 @@ constexpr std::array kTerms = {
     ConfidenceTerm{"log_both_far", &F::log_both_far, "natural logarithm of both_far_conflict_share, 0.005 added"},
     ConfidenceTerm{"furniture", &F::furniture, "unit of furniture_conflict_share"},
     ConfidenceTerm{"both_furniture", &F::both_furniture, "unit of elastic_both_furniture_conflict_share"},
-    ConfidenceTerm{"fittings", &F::fittings, "unit of fittings_conflict_share"},
-    ConfidenceTerm{"roughness", &F::roughness, "metre of elastic_roughness"},
+    ConfidenceTerm{"log_elastic_evidence", &F::log_elastic_evidence, "natural logarithm of elastic_evidence_m [m]"},
     ConfidenceTerm{"log_overlap_share", &F::log_overlap_share, "natural logarithm of overlap_share"},
     ConfidenceTerm{"log_weak", &F::log_weak, "natural logarithm of the weakest direction's standard deviation [m]"},
     ConfidenceTerm{"weak_direction", &F::weak_direction, "unit that this logarithm exceeds -3 by"},

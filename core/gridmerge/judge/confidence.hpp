@@ -12,7 +12,6 @@ namespace gridmerge {
 /// Each is 0 where nothing is known.
 struct ConfidenceFigures {
   // Beside the other poses.
-  double log_lead = 0;        ///< ln of the lead in evidence over the strongest other pose [m], at least 1 m
   double log_rivals = 0;      ///< gridmerge::log_rivals of the other poses
   double spotless_rival = 0;  ///< evidence of the strongest other pose with less than 3 % conflict, as a share
   double decoy_doubt = 0;     ///< what DecoyLevel::log_ratio lacks of 0.5
@@ -21,10 +20,9 @@ struct ConfidenceFigures {
   double log_both_far = 0;    ///< ln of Figures::both_far_conflict_share, 0.005 added: the first of it says most
   double furniture = 0;       ///< Figures::furniture_conflict_share
   double both_furniture = 0;  ///< Figures::elastic_both_furniture_conflict_share
-  double fittings = 0;        ///< Figures::fittings_conflict_share
-  double roughness = 0;       ///< Figures::elastic_roughness_m
   // How much there is in common.
-  double log_overlap_share = 0;  ///< ln of the overlap's share of the smaller map, at least 1 %
+  double log_elastic_evidence = 0;  ///< ln of Figures::elastic_evidence_m, at least 1 m
+  double log_overlap_share = 0;     ///< ln of the overlap's share of the smaller map, at least 1 %
   // How well the walls fix the pose.
   double log_weak = 0;        ///< ln of the pose's standard deviation at the source, in the direction fixed least [m]
   double weak_direction = 0;  ///< how far log_weak exceeds -3 (5 cm)

@@ -225,8 +225,7 @@ Figures Evaluator::rival_figures(const Pose2& target_from_source) const {
   Figures f = wall_figures(target_from_source);
   const Pose2 local = to_local(target_from_source, *target_.map, *source_.map);
   add_cell_figures(f, local, kEvery);
-  add_elastic_figures(f, meet_elastically(target_, source_, local, options_.tolerance_m),
-                      meet_elastically(source_, target_, inverse(local), options_.tolerance_m),
+  add_elastic_figures(f, meet_elastically(target_, source_, local), meet_elastically(source_, target_, inverse(local)),
                       options_.conflict_weight);
   return f;
 }
@@ -239,9 +238,8 @@ Figures Evaluator::figures(const Pose2& target_from_source, int num_threads) con
   double psi_open = 0;
   double psi_wall = 0;
   const std::array<std::function<void()>, 5> parts = {
-      [&] { add_cell_figures(f, local, 1); },
-      [&] { there = meet_elastically(target_, source_, local, options_.tolerance_m); },
-      [&] { back = meet_elastically(source_, target_, inverse(local), options_.tolerance_m); },
+      [&] { add_cell_figures(f, local, 1); }, [&] { there = meet_elastically(target_, source_, local); },
+      [&] { back = meet_elastically(source_, target_, inverse(local)); },
       [&] { psi_open = psi_cells(local, CellState::kOpen); }, [&] { psi_wall = psi_cells(local, CellState::kWall); }};
   parallel_for(parts.size(), num_threads, [&](std::size_t i, std::size_t) { parts[i](); });
 
@@ -317,7 +315,7 @@ double Evaluator::psi_cells(const Pose2& local, CellState state) const {
 }
 
 RandomLevel Evaluator::random_level(std::uint64_t seed, int num_threads) const {
-  constexpr std::size_t kWalls = 2000;  // of both maps
+  constexpr std::size_t kWalls = 1000;  // of both maps
   const PreparedMap& target = *target_.map;
   const PreparedMap& source = *source_.map;
   RandomLevel level;

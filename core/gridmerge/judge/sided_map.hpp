@@ -33,6 +33,7 @@ struct SidedMap {
   double metres_a_wall = 0;
   std::vector<std::uint8_t> seen_from;       ///< sides_within the tolerance, by cell of level 0
   std::vector<std::uint8_t> seen_from_near;  ///< sides_within half of it
+  std::vector<std::uint8_t> clear_of_near;   ///< 1 for free cells farther than that, and a cell, from any wall
 };
 
 [[nodiscard]] SidedMap sided_map(const PreparedMap& map, double tolerance_m, int max_points);

@@ -42,8 +42,8 @@ struct VerdictOptions {
   double min_confidence = 0;
   // Gates: none may be broken in a merge, however sure it looks.
   double min_same_side_m = 20;
-  double min_evidence_m = 10;
-  double min_lead = 0.2;
+  double min_evidence_m = 30;
+  double min_lead = 0.1;
   double max_conflict_share = 0.33;
   double min_deviations = 1.5;
   double spotless_conflict_share = 0.01;

@@ -44,7 +44,7 @@ ElasticMeeting meet(const OccupancyGrid& fixed, const OccupancyGrid& moving, con
   const PreparedMap a(fixed, 0.05);
   const PreparedMap b(moving, 0.05);
   const Pose2 aligned = to_local(local, a, b);
-  return meet_elastically(sided_map(a, kTolerance, 100000), sided_map(b, kTolerance, 100000), aligned, kTolerance);
+  return meet_elastically(sided_map(a, kTolerance, 100000), sided_map(b, kTolerance, 100000), aligned);
 }
 
 TEST(Elastic, AMapFitsItselfWithoutAShift) {
@@ -60,7 +60,7 @@ TEST(Elastic, ABentMapFitsWithShiftsThatDiffer) {
   const OccupancyGrid grid = drawn(Place::kFlat, {});
   const ElasticMeeting met = meet(grid, bent(grid, 8), {});  // 0.4 m, twice the tolerance
   EXPECT_LT(conflict(met), 0.08);
-  EXPECT_GT(met.astray_m2 / met.expected_m, 0.05);
+  EXPECT_GT(met.astray_m2 / met.expected_m, 0.02);  // of those at the fault alone
 }
 
 TEST(Elastic, ABendIsFollowedFartherThanAPatchMayStray) {
@@ -71,6 +71,20 @@ TEST(Elastic, ABendIsFollowedFartherThanAPatchMayStray) {
   const PreparedMap a(grid, 0.05);
   const PreparedMap b(moving, 0.05);
   EXPECT_GT(Evaluator(a, b, {}).wall_figures({}).conflict_share, 0.2);
+}
+
+/// What is read there is a property of the maps: the same from every pose near by.
+TEST(Elastic, SaysAboutTheSameFromPosesBesideEachOther) {
+  const OccupancyGrid grid = drawn(Place::kFlat, {});
+  const OccupancyGrid moving = curved(grid, 20);
+  const double same_side_m = meet(grid, moving, {}).same_side_m;
+  for (const Pose2& beside : {Pose2{0.1, 0, 0}, Pose2{-0.1, 0, 0}, Pose2{0, 0.1, 0}, Pose2{0, -0.1, 0},
+                              Pose2{0, 0, radians(0.4)}, Pose2{0, 0, radians(-0.4)}}) {
+    const ElasticMeeting met = meet(grid, moving, beside);
+    EXPECT_NEAR(met.same_side_m, same_side_m, 0.1 * same_side_m)
+        << beside.x_m << ", " << beside.y_m << ", " << beside.theta_rad;
+    EXPECT_LT(conflict(met), 0.1) << beside.x_m << ", " << beside.y_m << ", " << beside.theta_rad;
+  }
 }
 
 TEST(Elastic, AWrongPoseFitsNoBetterForIt) {
