@@ -90,9 +90,7 @@ TEST(Learn, TheSecondChanceIsWhatAnotherMethodDidThere) {
     rows.push_back(second);
   }
   const WeightedSum chance = learn(rows).second_chance;
-  const auto of = [&](bool ambiguous) {
-    return 1 / (1 + std::exp(-chance.of(second_chance_inputs(0.3, ambiguous))));
-  };
+  const auto of = [&](bool ambiguous) { return 1 / (1 + std::exp(-chance.of(second_chance_inputs(0.3, ambiguous)))); };
   EXPECT_GT(of(true), 0.8);
   EXPECT_LT(of(false), 0.2);
 }

@@ -47,8 +47,8 @@ struct BidModel {
 struct BidBook {
   std::vector<BidModel> methods;
   /// Log odds that another method merges rightly what the first did not merge, from what the first one's verdict was:
-  /// inputs `bias`, `log_odds` (of its confidence), `above_half` (the same where the confidence is above a half, else 0:
-  /// there one figure more may do, and no gate was broken) and `ambiguous` (1 or 0).
+  /// inputs `bias`, `log_odds` (of its confidence), `above_half` (the same where it is above a half, else 0: a near
+  /// miss, for where a gate is broken the confidence is at most a half) and `ambiguous` (1 or 0).
   WeightedSum second_chance;
 };
 
