@@ -15,7 +15,7 @@ constexpr float kPatch = 4;                // [m] side of a patch
 constexpr double kReach = 0.4;             // [m] how far off its expected place a patch is looked for ...
 constexpr double kStep = 0.1;              // [m]
 constexpr double kTurn = 0.035;            // [rad] ... and how far turned
-constexpr double kTurnUnit = kTurn / 8;    // [rad] the far end of a patch moves by 1 cm
+constexpr double kTurnUnit = kTurn / 8;    // [rad] of an expected turn: the far end of a patch moves by 1 cm
 constexpr double kLeastWalls = 1;          // [m] of a patch that counts
 constexpr std::size_t kMostInAPatch = 60;  // walls that are looked at
 constexpr double kLeastSaid = 0.05;        // [m] of others, by a patch without walls or fittings that fit
@@ -264,7 +264,7 @@ class Ground {
 class Layout {
  public:
   Layout(const Ground& ground, const std::vector<Patch>& patches, double resolution_m)
-      : ground_(ground), patches_(patches), patch_cells_(kPatch / resolution_m), known_(patches.size()) {}
+      : ground_(ground), patches_(patches), patch_cells_(kPatch / resolution_m) {}
 
   [[nodiscard]] ElasticMeeting from(std::size_t seed) {
     lying_.assign(patches_.size(), {});
@@ -296,7 +296,6 @@ class Layout {
     ElasticMeeting meeting;
     bool lies = false;
   };
-  using KnownLaid = std::pair<Bend, Ground::Laid>;
 
   /// By how much the one is heard by the other.
   [[nodiscard]] double said(std::size_t from, std::size_t to) const {
@@ -306,8 +305,7 @@ class Layout {
     return lying_[from].says_m / (square * square);
   }
 
-  /// Where those that lie put it, moved and turned as they are: the mean, by how much they say. In whole cells and
-  /// hundredths of a turn that matter, so that what is looked for twice is found once.
+  /// Where those that lie put it, moved and turned as they are: the mean, by how much they say.
   [[nodiscard]] Bend expected(std::size_t patch) const {
     double columns = 0;
     double rows = 0;
@@ -333,19 +331,11 @@ class Layout {
             kTurnUnit * std::round(turn_rad / weight / kTurnUnit)};
   }
 
-  const Ground::Laid& laid(std::size_t patch, const Bend& where) {
-    std::vector<KnownLaid>& known = known_[patch];
-    const auto found = std::find_if(known.begin(), known.end(), [&](const KnownLaid& one) {
-      return one.first.at_the_place_of(where) && one.first.turn_rad == where.turn_rad;
-    });
-    return found != known.end() ? found->second : known.emplace_back(where, ground_.lay(patches_[patch], where)).second;
-  }
-
   void lay(std::size_t index) {
     const Patch& patch = patches_[index];
     const bool is_first = std::none_of(lying_.begin(), lying_.end(), [](const Lying& one) { return one.lies; });
     const Bend where = expected(index);
-    const Ground::Laid& best = laid(index, where);
+    const Ground::Laid best = ground_.lay(patch, where);
     const Met all = best.by_all.met.all();
     const Met& furniture = best.by_all.met.of(Part::kFurniture);
     const BestBend& went = patch.has_fixtures() ? best.by_fixtures : best.by_all;
@@ -368,7 +358,6 @@ class Layout {
   const std::vector<Patch>& patches_;
   double patch_cells_;
   std::vector<Lying> lying_;
-  std::vector<std::vector<KnownLaid>> known_;  ///< by patch: where it went of what was expected before
 };
 
 /// The patches that fit best as the pose has it, far from each other: a layout that went astray from one need not from
