@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -130,7 +129,8 @@ Decoy::Decoy(const AlignRequest& request, const RunContext& context)
   const PreparedMap moving = (swapped ? target_ : source_).mirrored(kFitLevel);
   std::optional<PoseLattice> lattice;
   std::optional<WallFit> mirrored_fit;
-  const std::array<std::function<void()>, 3> parts = {
+  parallel_invoke(
+      context.num_threads,
       [&] {
         lattice.emplace(fixed, moving, window_, kLattice);
         if (!window_) {
@@ -138,8 +138,7 @@ Decoy::Decoy(const AlignRequest& request, const RunContext& context)
         }
       },
       [&] { mirrored_fit.emplace(fixed, moving, kFitLevel, WallFitOptions{}, kMaxPoints); },
-      [&] { fit_.emplace(target_, source_, kFitLevel, WallFitOptions{}, kMaxPoints); }};
-  parallel_for(parts.size(), context.num_threads, [&](std::size_t i, std::size_t) { parts[i](); });
+      [&] { fit_.emplace(target_, source_, kFitLevel, WallFitOptions{}, kMaxPoints); });
   resolution_m_ = lattice->resolution_m();
   best_ = best_climb(*mirrored_fit, swept(*lattice, window_, *mirrored_fit, context, stopped_), resolution_m_, window_,
                      context.num_threads);

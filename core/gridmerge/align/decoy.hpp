@@ -11,8 +11,8 @@ namespace gridmerge {
 class Decoy {
  public:
   /// Sweeps over poses of the mirrored source (angles by 5 degrees, cells of 0.2 or 0.4 m) and climbs from the best of
-  /// them: over all in the prior's fence, or, where there is none, at the third of the angles at which the walls of
-  /// both maps run most alike.
+  /// them in cells of 0.2 m: over all in the prior's fence, or, where there is none, at the third of the angles at
+  /// which the walls of both maps run most alike.
   Decoy(const AlignRequest& request, const RunContext& context);
 
   /// The best smooth fit of the mirrored source [points of wall].

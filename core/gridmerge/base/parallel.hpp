@@ -2,11 +2,14 @@
 /// Loops over independent items. What an item computes depends on its index alone, and whoever sums does so in index
 /// order: so an answer is the same at any number of threads.
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace gridmerge {
@@ -55,6 +58,14 @@ void parallel_for(std::size_t count, int num_threads, Body&& body) {
   if (failure) {
     std::rethrow_exception(failure);
   }
+}
+
+/// Calls every one of the functions, each once, on up to `num_threads` threads. What one writes no other may touch.
+/// Exceptions as in parallel_for.
+template <typename... Functions>
+void parallel_invoke(int num_threads, Functions&&... functions) {
+  const std::array<std::function<void()>, sizeof...(functions)> all = {std::forward<Functions>(functions)...};
+  parallel_for(all.size(), num_threads, [&](std::size_t index, std::size_t) { all[index](); });
 }
 
 }  // namespace gridmerge

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace gridmerge {
@@ -251,6 +252,7 @@ class Ground {
     return laid;
   }
 
+  [[nodiscard]] double cells(double metres) const { return metres / level_.resolution_m; }
   [[nodiscard]] double metres(int columns, int rows) const { return level_.resolution_m * std::hypot(columns, rows); }
 
  private:
@@ -263,8 +265,8 @@ class Ground {
 /// Lays all patches, from one of them on.
 class Layout {
  public:
-  Layout(const Ground& ground, const std::vector<Patch>& patches, double resolution_m)
-      : ground_(ground), patches_(patches), patch_cells_(kPatch / resolution_m) {}
+  Layout(const Ground& ground, const std::vector<Patch>& patches)
+      : ground_(ground), patches_(patches), patch_cells_(ground.cells(kPatch)) {}
 
   [[nodiscard]] ElasticMeeting from(std::size_t seed) {
     lying_.assign(patches_.size(), {});
@@ -275,7 +277,7 @@ class Layout {
       lay(next);
       order.push_back(next);
       for (std::size_t other = 0; other < patches_.size(); ++other) {
-        told[other] = lying_[other].lies ? -1 : std::max(told[other], said(next, other));
+        told[other] = lying_[other].lies() ? -1 : std::max(told[other], said(next, other));
       }
     }
     // Once more, each where all others put it: the first ones were laid by few.
@@ -292,9 +294,10 @@ class Layout {
  private:
   struct Lying {
     Bend bend;
-    double says_m = 0;  ///< to others
+    double says_m = 0;  ///< to others; 0: it does not lie yet
     ElasticMeeting meeting;
-    bool lies = false;
+
+    [[nodiscard]] bool lies() const { return says_m > 0; }
   };
 
   /// By how much the one is heard by the other.
@@ -305,14 +308,15 @@ class Layout {
     return lying_[from].says_m / (square * square);
   }
 
-  /// Where those that lie put it, moved and turned as they are: the mean, by how much they say.
-  [[nodiscard]] Bend expected(std::size_t patch) const {
+  /// Where those that lie put it, moved and turned as they are: the mean, by how much they say. None: no other
+  /// lies.
+  [[nodiscard]] std::optional<Bend> expected(std::size_t patch) const {
     double columns = 0;
     double rows = 0;
     double turn_rad = 0;
     double weight = 0;
     for (std::size_t other = 0; other < patches_.size(); ++other) {
-      if (other == patch || !lying_[other].lies) {
+      if (other == patch) {
         continue;
       }
       const Bend& went = lying_[other].bend;
@@ -325,16 +329,16 @@ class Layout {
       weight += says;
     }
     if (weight <= 0) {
-      return {};
+      return std::nullopt;
     }
-    return {static_cast<int>(std::lround(columns / weight)), static_cast<int>(std::lround(rows / weight)),
-            kTurnUnit * std::round(turn_rad / weight / kTurnUnit)};
+    return Bend{static_cast<int>(std::lround(columns / weight)), static_cast<int>(std::lround(rows / weight)),
+                kTurnUnit * std::round(turn_rad / weight / kTurnUnit)};
   }
 
   void lay(std::size_t index) {
     const Patch& patch = patches_[index];
-    const bool is_first = std::none_of(lying_.begin(), lying_.end(), [](const Lying& one) { return one.lies; });
-    const Bend where = expected(index);
+    const std::optional<Bend> told = expected(index);
+    const Bend where = told.value_or(Bend{});
     const Ground::Laid best = ground_.lay(patch, where);
     const Met all = best.by_all.met.all();
     const Met& furniture = best.by_all.met.of(Part::kFurniture);
@@ -344,14 +348,13 @@ class Layout {
                      .in_free_m = patch.half_wall_m * all.in_free,
                      .furniture_same_side_m = patch.half_wall_m * furniture.same_side,
                      .furniture_in_free_m = patch.half_wall_m * furniture.in_free};
-    if (patch.has_fixtures() && patches_.size() > 1 && !is_first) {
+    if (patch.has_fixtures() && told) {
       lying.meeting.astray_m2 =
           patch.fixtures_m * ground_.metres(went.bend.columns - where.columns, went.bend.rows - where.rows);
       lying.meeting.expected_m = patch.fixtures_m;
     }
     lying.bend = went.bend;
     lying.says_m = kLeastSaid + (patch.has_fixtures() ? patch.half_wall_m * std::max(0, went.gain) : 0);
-    lying.lies = true;
   }
 
   const Ground& ground_;
@@ -362,7 +365,7 @@ class Layout {
 
 /// The patches that fit best as the pose has it, far from each other: a layout that went astray from one need not from
 /// another.
-std::vector<std::size_t> seeds(const Ground& ground, const std::vector<Patch>& patches, double resolution_m) {
+std::vector<std::size_t> seeds(const Ground& ground, const std::vector<Patch>& patches) {
   std::vector<std::pair<double, double>> gains;  // of fixtures, and of all [m]
   for (const Patch& patch : patches) {
     const PatchMet met = ground.met(patch.walls, {});
@@ -374,8 +377,7 @@ std::vector<std::size_t> seeds(const Ground& ground, const std::vector<Patch>& p
   std::vector<std::size_t> seeds;
   for (const std::size_t one : ranked) {
     const bool far = std::all_of(seeds.begin(), seeds.end(), [&](std::size_t seed) {
-      return resolution_m *
-                 std::hypot(patches[seed].column - patches[one].column, patches[seed].row - patches[one].row) >=
+      return ground.metres(patches[seed].column - patches[one].column, patches[seed].row - patches[one].row) >=
              kSeedsApart;
     });
     if (far && seeds.size() < kSeeds) {
@@ -397,13 +399,12 @@ void ElasticMeeting::operator+=(const ElasticMeeting& other) {
 }
 
 ElasticMeeting meet_elastically(const SidedMap& fixed, const SidedMap& moving, const Pose2& fixed_from_moving) {
-  const MapLevel& level = fixed.map->level(0);
   const Ground ground(fixed);
-  const std::vector<Patch> patches = patches_of(moving, level, fixed_from_moving);
-  Layout layout(ground, patches, level.resolution_m);
+  const std::vector<Patch> patches = patches_of(moving, fixed.map->level(0), fixed_from_moving);
+  Layout layout(ground, patches);
   ElasticMeeting best;
   double most_m = -std::numeric_limits<double>::infinity();
-  for (const std::size_t seed : seeds(ground, patches, level.resolution_m)) {
+  for (const std::size_t seed : seeds(ground, patches)) {
     const ElasticMeeting meeting = layout.from(seed);
     if (const double gain_m = meeting.same_side_m - meeting.in_free_m; gain_m > most_m) {
       most_m = gain_m;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <opencv2/imgproc.hpp>
 
 #include "gridmerge/base/parallel.hpp"
@@ -146,9 +145,9 @@ std::vector<std::pair<std::string, double>> Figures::named() const {
 Evaluator::Evaluator(const PreparedMap& target, const PreparedMap& source, EvaluatorOptions options, int num_threads)
     : options_(options) {
   require_valid(options_, "evaluator");
-  parallel_for(2, num_threads, [&](std::size_t i, std::size_t) {
-    (i == 0 ? target_ : source_) = sided_map(i == 0 ? target : source, options_.tolerance_m, options_.max_points);
-  });
+  parallel_invoke(
+      num_threads, [&] { target_ = sided_map(target, options_.tolerance_m, options_.max_points); },
+      [&] { source_ = sided_map(source, options_.tolerance_m, options_.max_points); });
 }
 
 WallMeeting Evaluator::meet(const SidedMap& fixed, const SidedMap& moving, const Pose2& fixed_from_moving,
@@ -237,11 +236,10 @@ Figures Evaluator::figures(const Pose2& target_from_source, int num_threads) con
   ElasticMeeting back;
   double psi_open = 0;
   double psi_wall = 0;
-  const std::array<std::function<void()>, 5> parts = {
-      [&] { add_cell_figures(f, local, 1); }, [&] { there = meet_elastically(target_, source_, local); },
+  parallel_invoke(
+      num_threads, [&] { add_cell_figures(f, local, 1); }, [&] { there = meet_elastically(target_, source_, local); },
       [&] { back = meet_elastically(source_, target_, inverse(local)); },
-      [&] { psi_open = psi_cells(local, CellState::kOpen); }, [&] { psi_wall = psi_cells(local, CellState::kWall); }};
-  parallel_for(parts.size(), num_threads, [&](std::size_t i, std::size_t) { parts[i](); });
+      [&] { psi_open = psi_cells(local, CellState::kOpen); }, [&] { psi_wall = psi_cells(local, CellState::kWall); });
 
   add_elastic_figures(f, there, back, options_.conflict_weight);
   f.psi_cells = psi_open + psi_wall;                                                     // Eq. 2.6

@@ -330,7 +330,7 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
   v.vetoed = !nothing.empty();
   // A rival that fits about as well is a doubt. Asked where the maps may bend: there the right pose has the evidence
   // that drift took from it, and a wrong one gains little.
-  constexpr double kOfItsOwn = 0.3;
+  constexpr double kOfItsOwn = 0.3;  // of the best one's evidence: a pose with less only bends into it
   std::vector<const Hypothesis*> as_good;
   // Laid over each other as far as they go, two halves of a symmetric hall agree in more than where they really meet. A
   // lead says nothing then: a pose without conflict cannot be ruled out. Of the weak ones some have no conflict only

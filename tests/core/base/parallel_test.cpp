@@ -90,5 +90,26 @@ TEST(ParallelFor, StartsNoFurtherItemsAfterAThrow) {
   EXPECT_LE(started, 4);
 }
 
+TEST(ParallelInvoke, CallsEveryFunctionOnce) {
+  for (const int num_threads : {1, 2, 4}) {
+    int first = 0;
+    int second = 0;
+    int third = 0;
+    parallel_invoke(
+        num_threads, [&] { ++first; }, [&] { ++second; }, [&] { ++third; });
+    EXPECT_EQ(first, 1);
+    EXPECT_EQ(second, 1);
+    EXPECT_EQ(third, 1);
+  }
+}
+
+TEST(ParallelInvoke, ThrowsAgainWhatAFunctionThrows) {
+  for (const int num_threads : {1, 2}) {
+    EXPECT_THROW(parallel_invoke(
+                     num_threads, [] {}, [] { throw std::runtime_error("second"); }),
+                 std::runtime_error);
+  }
+}
+
 }  // namespace
 }  // namespace gridmerge

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace gridmerge {
@@ -27,8 +26,8 @@ const SceneFeatures kForest{.straightness = 0.1,
                             .self_similarity = 0.05,
                             .ternary = false};
 
-double input(const BidInputs& inputs, const std::string& name) {
-  for (const auto& [key, value] : inputs.named()) {
+double input(const NamedValues& inputs, const std::string& name) {
+  for (const auto& [key, value] : inputs) {
     if (key == name) {
       return value;
     }
@@ -39,14 +38,14 @@ double input(const BidInputs& inputs, const std::string& name) {
 
 TEST(BidInputs, TakeTheHarderOfTheTwoMaps) {
   const BidInputs inputs(kOffice, kForest, {});
-  EXPECT_EQ(input(inputs, "bias"), 1);
-  EXPECT_EQ(input(inputs, "straightness"), 0.1);
-  EXPECT_EQ(input(inputs, "clutter"), 1);
-  EXPECT_EQ(input(inputs, "self_similarity"), 0.3);
-  EXPECT_NEAR(input(inputs, "log_least_known"), std::log(300), 1e-12);
-  EXPECT_NEAR(input(inputs, "log_occupied"), std::log(14000), 1e-12);
-  EXPECT_EQ(input(inputs, "probabilistic"), 1);
-  EXPECT_EQ(input(inputs, "directions"), 3.5);
+  EXPECT_EQ(input(inputs.named(), "bias"), 1);
+  EXPECT_EQ(input(inputs.named(), "straightness"), 0.1);
+  EXPECT_EQ(input(inputs.named(), "clutter"), 1);
+  EXPECT_EQ(input(inputs.named(), "self_similarity"), 0.3);
+  EXPECT_NEAR(input(inputs.named(), "log_least_known"), std::log(300), 1e-12);
+  EXPECT_NEAR(input(inputs.named(), "log_occupied"), std::log(14000), 1e-12);
+  EXPECT_EQ(input(inputs.named(), "probabilistic"), 1);
+  EXPECT_EQ(input(inputs.named(), "directions"), 3.5);
 }
 
 TEST(BidInputs, SwappingTheMapsChangesNothing) {
@@ -57,10 +56,10 @@ TEST(BidInputs, KnowHowTightAPriorIs) {
   const auto prior = [](double radius_m, double angle_deg) {
     return PosePrior{.target_from_source = {}, .radius_m = radius_m, .angle_rad = radians(angle_deg)};
   };
-  EXPECT_EQ(input(BidInputs(kOffice, kOffice, {}), "prior"), 0);
-  EXPECT_EQ(input(BidInputs(kOffice, kOffice, PosePrior{}), "prior"), 0);  // a start, not a fence
-  const double tight = input(BidInputs(kOffice, kOffice, prior(1, 5)), "prior");
-  const double wide = input(BidInputs(kOffice, kOffice, prior(20, 180)), "prior");
+  EXPECT_EQ(input(BidInputs(kOffice, kOffice, {}).named(), "prior"), 0);
+  EXPECT_EQ(input(BidInputs(kOffice, kOffice, PosePrior{}).named(), "prior"), 0);  // a start, not a fence
+  const double tight = input(BidInputs(kOffice, kOffice, prior(1, 5)).named(), "prior");
+  const double wide = input(BidInputs(kOffice, kOffice, prior(20, 180)).named(), "prior");
   EXPECT_LT(tight, 1);
   EXPECT_GT(tight, wide);
   EXPECT_GT(wide, 0);
@@ -88,19 +87,12 @@ TEST(BidBook, BidsBySumsOfWeightedInputs) {
 }
 
 TEST(BidBook, ASecondChanceSeesHowFarTheConfidenceIsAboveAHalf) {
-  const auto input = [](double confidence, const std::string& name) {
-    for (const auto& [key, value] : second_chance_inputs(confidence, true)) {
-      if (key == name) {
-        return value;
-      }
-    }
-    return std::numeric_limits<double>::quiet_NaN();
-  };
-  EXPECT_NEAR(input(0.75, "above_half"), std::log(3), 1e-9);
-  EXPECT_EQ(input(0.5, "above_half"), 0);
-  EXPECT_EQ(input(0.2, "above_half"), 0);
-  EXPECT_NEAR(input(0.2, "log_odds"), -std::log(4), 1e-9);
-  EXPECT_EQ(input(0.2, "ambiguous"), 1);
+  EXPECT_NEAR(input(second_chance_inputs(0.75, true), "above_half"), std::log(3), 1e-9);
+  EXPECT_EQ(input(second_chance_inputs(0.5, true), "above_half"), 0);
+  const NamedValues unlikely = second_chance_inputs(0.2, true);
+  EXPECT_EQ(input(unlikely, "above_half"), 0);
+  EXPECT_NEAR(input(unlikely, "log_odds"), -std::log(4), 1e-9);
+  EXPECT_EQ(input(unlikely, "ambiguous"), 1);
 }
 
 TEST(BidBook, RefusesAWeightForWhatIsNoInput) {
