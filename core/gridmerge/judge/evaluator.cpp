@@ -4,10 +4,11 @@
 #include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "gridmerge/base/parallel.hpp"
 #include "gridmerge/base/random.hpp"
-#include "gridmerge/judge/elastic.hpp"
+#include "gridmerge/judge/meeting_cells.hpp"
 
 namespace gridmerge {
 namespace {
@@ -68,7 +69,7 @@ void add_piece_figures(Figures& f) {
 }
 
 /// From both ways with the maps bent.
-void add_elastic_figures(Figures& f, const ElasticMeeting& there, const ElasticMeeting& back, double conflict_weight) {
+void add_elastic_figures(Figures& f, ElasticMeeting there, const ElasticMeeting& back, double conflict_weight) {
   const double same_side = there.same_side_m + back.same_side_m;
   const double in_free = there.in_free_m + back.in_free_m;
   const auto furniture_of = [](const ElasticMeeting& met) {
@@ -77,6 +78,7 @@ void add_elastic_figures(Figures& f, const ElasticMeeting& there, const ElasticM
   f.elastic_evidence_m = same_side - conflict_weight * in_free;
   f.elastic_conflict_share = share(in_free, same_side);
   f.elastic_both_furniture_conflict_share = std::min(furniture_of(there), furniture_of(back));
+  f.elastic_layout = std::move(there.layout);
   // As rough as two places that are not the same, where there is little to tell by.
   constexpr double kStrange_m = 0.4;
   constexpr double kLittle_m = 2;
@@ -150,36 +152,48 @@ Evaluator::Evaluator(const PreparedMap& target, const PreparedMap& source, Evalu
       [&] { source_ = sided_map(source, options_.tolerance_m, options_.max_points); });
 }
 
+namespace {
+
+/// Those of meeting_cells.hpp, all sides as one.
+constexpr std::size_t kSides = meets::kFarFree + 1;
+constexpr std::size_t kMeetings = kSides + 1;
+
+}  // namespace
+
 WallMeeting Evaluator::meet(const SidedMap& fixed, const SidedMap& moving, const Pose2& fixed_from_moving,
                             std::size_t every) const {
   const MapLevel& level = fixed.map->level(0);
   const ToCells to(level, fixed_from_moving);
   const int turn = turn_64ths(fixed_from_moving);
-  const auto clear_m = static_cast<float>(options_.tolerance_m + level.resolution_m);
-  const auto far_m = static_cast<float>(3 * options_.tolerance_m);
-  WallMeeting met;  // in walls, to begin with
+  // Counted without a branch that could be mispredicted: it is asked for millions of walls.
+  std::array<std::array<int, kMeetings>, kPieceKinds> counts{};  // by piece and meeting
+  std::array<int, kPieceKinds> same_side_halves{};
+  int walls = 0;
   for (std::size_t i = 0; i < moving.walls.size(); i += every) {
     const SidedWall& wall = moving.walls[i];
-    PieceMeeting& piece = met.pieces[static_cast<std::size_t>(wall.piece)];
-    met.all_m += 1;
+    ++walls;
     const int column = to.column(wall.at);
     const int row = to.row(wall.at);
     if (!level.contains(column, row)) {
       continue;
     }
-    const std::size_t at = level.offset(column, row);
-    if (const std::uint8_t seen_from = fixed.seen_from[at]; seen_from != 0) {
-      const double same = same_side(wall, seen_from, turn);
-      met.confirmed_m += 1;
-      met.same_side_m += same;
-      piece.same_side_m += same;
-    } else if (level.state[at] == CellState::kOpen && level.wall_distance_m[at] > clear_m) {
-      const double far = level.wall_distance_m[at] > far_m ? 1 : 0;
-      met.in_free_m += 1;
-      met.far_in_free_m += far;
-      piece.in_free_m += 1;
-      piece.far_in_free_m += far;
-    }
+    const std::uint8_t cell = fixed.cells[level.offset(column, row)];
+    const std::size_t meeting = std::min<std::size_t>(cell, kSides);
+    const auto piece = static_cast<std::size_t>(wall.piece);
+    ++counts[piece][meeting];
+    const bool same = meeting == kSides && (cell & sides_of(wall, turn)) != 0;
+    same_side_halves[piece] += static_cast<int>(same) * (wall.side.known ? 2 : 1);
+  }
+  WallMeeting met;  // in walls, to begin with
+  met.all_m = walls;
+  for (std::size_t piece = 0; piece < kPieceKinds; ++piece) {
+    const double far = counts[piece][meets::kFarFree];
+    const double in_free = counts[piece][meets::kFree] + far;
+    met.pieces[piece] = {0.5 * same_side_halves[piece], in_free, far};
+    met.confirmed_m += counts[piece][kSides];
+    met.same_side_m += met.pieces[piece].same_side_m;
+    met.in_free_m += in_free;
+    met.far_in_free_m += far;
   }
   met.unseen_m = met.all_m - met.confirmed_m - met.in_free_m;
   const double metres = moving.metres_a_wall * static_cast<double>(every);
@@ -241,7 +255,7 @@ Figures Evaluator::figures(const Pose2& target_from_source, int num_threads) con
       [&] { back = meet_elastically(source_, target_, inverse(local)); },
       [&] { psi_open = psi_cells(local, CellState::kOpen); }, [&] { psi_wall = psi_cells(local, CellState::kWall); });
 
-  add_elastic_figures(f, there, back, options_.conflict_weight);
+  add_elastic_figures(f, std::move(there), back, options_.conflict_weight);
   f.psi_cells = psi_open + psi_wall;                                                     // Eq. 2.6
   f.delta = f.psi_cells + options_.c_lock * (f.disagreement_cells - f.agreement_cells);  // Eq. 2.5
   return f;

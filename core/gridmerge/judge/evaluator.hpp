@@ -8,6 +8,7 @@
 
 #include "gridmerge/base/options.hpp"
 #include "gridmerge/grid/prepared_map.hpp"
+#include "gridmerge/judge/elastic.hpp"
 #include "gridmerge/judge/sided_map.hpp"
 
 namespace gridmerge {
@@ -71,6 +72,7 @@ struct Figures {
   /// walls added that are off by 0.4 m, as where two places are not the same: where there is little to tell by, little
   /// is known.
   double elastic_roughness_m = 0;
+  std::vector<LaidPatch> elastic_layout;  ///< of the source in the target; not among the named
 
   // Cell by cell, source cells read on the target's nearest cells.
   double overlap_area_m2 = 0;     ///< known in both

@@ -8,49 +8,31 @@
 
 #include "gridmerge/grid/prepared_map.hpp"
 #include "gridmerge/grid/wall_sides.hpp"
+#include "gridmerge/judge/patch_ground.hpp"
+#include "gridmerge/judge/wall_patch.hpp"
 
 namespace gridmerge {
-
-/// What a wall is part of, by how wide the piece of occupied cells is.
-enum class Piece : std::uint8_t {
-  kLegs,       ///< less than 0.4 m: of chairs and tables, people, specks; they are elsewhere every day
-  kFurniture,  ///< to 2 m
-  kFittings,   ///< to 4 m: counters, shelves, stubs of wall between doors
-  kWall
-};
-inline constexpr std::size_t kPieceKinds = 4;
-
-struct SidedWall {
-  Point2f at;  ///< local frame
-  WallSide side;
-  Piece piece = Piece::kWall;
-};
 
 /// Borrows the map.
 struct SidedMap {
   const PreparedMap* map = nullptr;
   std::vector<SidedWall> walls;  ///< of more than the limit, every n-th
   double metres_a_wall = 0;
-  std::vector<std::uint8_t> seen_from;       ///< sides_within the tolerance, by cell of level 0
-  std::vector<std::uint8_t> seen_from_near;  ///< sides_within half of it
-  std::vector<std::uint8_t> clear_of_near;   ///< 1 for free cells farther than that, and a cell, from any wall
+  std::vector<std::uint8_t> cells;  ///< by cell of level 0, meeting_cells.hpp: of walls within the tolerance, and clear
+                                    ///< of any by a cell more; far is three times the tolerance
+  PatchGround ground;               ///< of sides within half of it
+  std::vector<WallPatch> patches;   ///< of the walls
 };
 
 [[nodiscard]] SidedMap sided_map(const PreparedMap& map, double tolerance_m, int max_points);
 
-/// The bit that is set in SidedMap::seen_from where a wall was seen from this one's side, after its map was turned; all
-/// bits where its side is not known.
+/// The bit of octants_seen_from that is this wall's side after its map was turned; all bits where its side is not
+/// known.
 [[nodiscard]] inline std::uint8_t sides_of(const SidedWall& wall, int turn_64ths) {
   if (!wall.side.known) {
     return 0xFF;
   }
   return static_cast<std::uint8_t>(1U << wall.side.octant_after_64ths(turn_64ths));
-}
-
-/// 1 where the wall was seen from a side that `seen_from` holds, after its map was turned; 0 where from another; a half
-/// where its own is not known.
-[[nodiscard]] inline double same_side(const SidedWall& wall, std::uint8_t seen_from, int turn_64ths) {
-  return !wall.side.known ? 0.5 : (seen_from & sides_of(wall, turn_64ths)) != 0 ? 1 : 0;
 }
 
 /// A turn in 1/64 of a full one, as WallSide has it.

@@ -75,6 +75,26 @@ ConfidenceFigures unrivalled_figures(const Hypothesis& one, const Background& ba
   return c;
 }
 
+/// Of two poses, once the maps are bent: they lay most of the walls that agree at the one in the same place. They are
+/// one answer then, however far apart they begin: a pose a metre beside the right one bends into it patch by patch.
+bool bends_into(const Figures& one, const Figures& best) {
+  constexpr double kSamePlace = 0.3;  // [m]
+  double all_m = 0;
+  double same_m = 0;
+  auto there = best.elastic_layout.begin();
+  for (const LaidPatch& patch : one.elastic_layout) {
+    all_m += patch.same_side_m;
+    while (there != best.elastic_layout.end() && there->patch < patch.patch) {
+      ++there;
+    }
+    if (there != best.elastic_layout.end() && there->patch == patch.patch &&
+        std::hypot(there->at.x_m - patch.at.x_m, there->at.y_m - patch.at.y_m) < kSamePlace) {
+      same_m += patch.same_side_m;
+    }
+  }
+  return same_m > 0.5 * all_m;
+}
+
 /// The pose whose doubt weighs most, and all of them.
 struct Rivals {
   std::vector<RivalFigures> figures;
@@ -85,7 +105,7 @@ struct Rivals {
     double most = 0;
     for (std::size_t i = 1; i < std::min(ranked.size(), kCompared); ++i) {
       const Figures& f = ranked[i].figures;
-      if (f.evidence_m <= 0) {
+      if (f.evidence_m <= 0 || bends_into(f, best)) {
         continue;
       }
       figures.push_back({.log_conflict = log_conflict(f) - log_conflict(best),
@@ -187,19 +207,19 @@ double VerdictOptions::needed_confidence() const {
 
 // configs/learned/verdict.yaml; a test holds the two together.
 ConfidenceWeights VerdictOptions::learned_weights() {
-  return {.bias = 6.1972,
-          .per = {.log_rivals = -2.9476,
-                  .spotless_rival = -2.6058,
-                  .decoy_doubt = -3.2507,
-                  .log_deviations = -1.8894,
-                  .log_both_far = -0.8185,
-                  .furniture = -2.953,
-                  .both_furniture = -6.106,
-                  .log_elastic_evidence = 1.0201,
-                  .log_overlap_share = 1.061,
-                  .log_weak = 1.6228,
-                  .weak_direction = -2.7328},
-          .per_rival = {.log_conflict = -1.0489, .elastic_gain = 12.0697, .log_overlap_share = 1.1967}};
+  return {.bias = 5.6973,
+          .per = {.log_rivals = -2.8911,
+                  .spotless_rival = -2.4814,
+                  .decoy_doubt = -3.2612,
+                  .log_deviations = -1.8882,
+                  .log_both_far = -0.8597,
+                  .furniture = -3.0444,
+                  .both_furniture = -5.7658,
+                  .log_elastic_evidence = 1.08,
+                  .log_overlap_share = 1.0717,
+                  .log_weak = 1.6389,
+                  .weak_direction = -2.5741},
+          .per_rival = {.log_conflict = -0.9871, .elastic_gain = 12.6428, .log_overlap_share = 1.1834}};
 }
 
 void VerdictOptions::describe(OptionList& list) {
@@ -330,7 +350,6 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
   v.vetoed = !nothing.empty();
   // A rival that fits about as well is a doubt. Asked where the maps may bend: there the right pose has the evidence
   // that drift took from it, and a wrong one gains little.
-  constexpr double kOfItsOwn = 0.3;  // of the best one's evidence: a pose with less only bends into it
   std::vector<const Hypothesis*> as_good;
   // Laid over each other as far as they go, two halves of a symmetric hall agree in more than where they really meet. A
   // lead says nothing then: a pose without conflict cannot be ruled out. Of the weak ones some have no conflict only
@@ -339,7 +358,7 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
   for (std::size_t i = 1; i < ranked.size(); ++i) {
     const Hypothesis& one = ranked[i];
     const Figures& f = one.figures;
-    if (o.min_lead > 0 && i < kCompared && f.evidence_m > kOfItsOwn * best.evidence_m &&
+    if (o.min_lead > 0 && i < kCompared && !bends_into(f, best) &&
         elastic_support_m(f) > (1 - o.min_lead) * elastic_support_m(best)) {
       as_good.push_back(&one);
     }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <numbers>
 
 #include "gridmerge/base/random.hpp"
 
@@ -28,6 +30,33 @@ TEST(RealTransform, ForwardAndBackGivesTheInputTimesItsSize) {
     transform.backward(spectrum.get(), real.get());
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       EXPECT_NEAR(real[i] / static_cast<float>(numbers.size()), numbers[i], 1e-5) << width << " x " << height;
+    }
+  }
+}
+
+TEST(RealTransform, IsTheSumOfItsDefinition) {
+  for (const auto& [width, height] : {std::pair{8, 6}, {7, 5}, {12, 1}, {1, 4}}) {
+    const RealTransform transform(width, height);
+    const std::vector<float> numbers = random_numbers(transform.real_size(), 2);
+    const auto real = real_array(transform.real_size());
+    const auto spectrum = spectrum_array(transform.spectrum_size());
+    std::copy(numbers.begin(), numbers.end(), real.get());
+    transform.forward(real.get(), spectrum.get());
+    const int columns = width / 2 + 1;
+    for (int v = 0; v < height; ++v) {
+      for (int u = 0; u < columns; ++u) {
+        std::complex<double> sum = 0;
+        for (int y = 0; y < height; ++y) {
+          for (int x = 0; x < width; ++x) {
+            const double turns = static_cast<double>(u * x) / width + static_cast<double>(v * y) / height;
+            sum += std::polar(static_cast<double>(numbers[static_cast<std::size_t>(y * width + x)]),
+                              -2 * std::numbers::pi * turns);
+          }
+        }
+        const std::complex<float> got = spectrum[static_cast<std::size_t>(v * columns + u)];
+        EXPECT_NEAR(got.real(), sum.real(), 1e-4) << width << " x " << height << ": " << u << ", " << v;
+        EXPECT_NEAR(got.imag(), sum.imag(), 1e-4) << width << " x " << height << ": " << u << ", " << v;
+      }
     }
   }
 }

@@ -213,10 +213,6 @@ TEST(Verdict, WhichPoseFitsAsWellIsAskedOfMapsThatMayBend) {
   const Verdict v = judged({best, rival}, kChance, always_confident());
   EXPECT_EQ(v.outcome, Outcome::kAmbiguous);
   EXPECT_THAT(v.reasons.front(), AllOf(HasSubstr("fits about as well"), HasSubstr("with 95 % of the evidence")));
-  // A pose beside the best one has little evidence as it is, and bends into it.
-  Hypothesis beside = hypothesis(22, 1);
-  beside.figures.elastic_evidence_m = best.figures.elastic_evidence_m;
-  EXPECT_EQ(judged({best, beside}, kChance, always_confident()).outcome, Outcome::kMerged);
   VerdictOptions no_lead = always_confident();
   no_lead.min_lead = 0;  // whatever the other one has
   rival.figures.elastic_evidence_m = 2 * best.figures.elastic_evidence_m;
@@ -461,6 +457,29 @@ TEST(Rivals, TheMostPlausibleIsNamed) {
   const Verdict v = judged({best, brushing, covering}, kChance, options);
   EXPECT_EQ(v.outcome, Outcome::kAmbiguous);
   EXPECT_THAT(v.reasons.front(), AllOf(HasSubstr("while another pose fits"), HasSubstr("at x 7.00 m")));
+}
+
+/// However plausible, and however much evidence it has where the maps may bend: that is the best one's own.
+TEST(Rivals, APoseThatBendsIntoTheBestOneIsNone) {
+  Hypothesis best = hypothesis(80, 1);
+  best.figures.elastic_layout = {{0, {2, 2}, 10}, {1, {6, 2}, 10}, {3, {10, 2}, 10}};
+  Hypothesis rival = hypothesis(50, 1);
+  rival.figures.elastic_evidence_m = best.figures.elastic_evidence_m;
+  const auto with_its_patches_at = [&](std::vector<LaidPatch> layout) {
+    rival.figures.elastic_layout = std::move(layout);
+    return judged({best, rival}, kChance, always_confident());
+  };
+  const Verdict bent = with_its_patches_at({{0, {2.1, 1.9}, 4}, {2, {6, 2}, 3}, {3, {10, 2.2}, 4}});
+  EXPECT_EQ(bent.outcome, Outcome::kMerged);
+  EXPECT_TRUE(bent.rivals.empty());
+  for (const std::vector<LaidPatch>& elsewhere :
+       {std::vector<LaidPatch>{{0, {2.4, 2}, 4}, {1, {6.4, 2}, 4}, {3, {10.4, 2}, 4}},  // beside it all the same
+        std::vector<LaidPatch>{{0, {2, 2}, 3}, {1, {7, 2}, 5}, {3, {10, 3}, 5}},        // most of its walls elsewhere
+        std::vector<LaidPatch>{{4, {2, 2}, 5}}, std::vector<LaidPatch>{}}) {            // other patches, none at all
+    const Verdict v = with_its_patches_at(elsewhere);
+    EXPECT_EQ(v.outcome, Outcome::kAmbiguous);
+    EXPECT_EQ(v.rivals.size(), 1U);
+  }
 }
 
 TEST(Rivals, ThoseFarDownTheListAreNotAskedFor) {
