@@ -185,7 +185,6 @@ class Search {
   }
 
   void refine(std::vector<Hypothesis>& hypotheses, std::size_t proposed) {
-    const std::optional<PoseWindow> window = window_of(request_);
     announce(context_, "refine");
     if (!refiner_) {
       refiner_.emplace(request_.target, request_.source, options_.refinement);
@@ -193,24 +192,29 @@ class Search {
     // A rival that the pipeline found comes on top: the method's own best must not fall out of the refinement for it.
     const auto own = static_cast<std::size_t>(options_.refined_candidates);
     const std::size_t count = std::min(hypotheses.size(), proposed < hypotheses.size() ? 2 * own : own);
-    parallel_for(count, context_.num_threads, [&](std::size_t i, std::size_t) {
-      Hypothesis& one = hypotheses[i];
-      const PoseEstimate refined = (*refiner_)(one.target_from_source.pose);
-      one.target_from_source.covariance = refined.covariance;
-      if (one.proposed && !options_.refine) {
-        return;  // stays where the method put it; how well the walls fix it is asked all the same
-      }
-      const Figures figures = evaluator_.wall_figures(refined.pose);
-      if (!inside(to_local(refined.pose, request_.target, request_.source), window)) {
-        return;
-      }
-      // Within its tolerance the evidence says little: there the refinement knows better. Where they clearly disagree,
-      // little agrees at all, and the evidence is what is judged by.
-      if (figures.evidence_m >= kEvidenceKept * one.figures.evidence_m) {
-        one.target_from_source.pose = refined.pose;
-        one.figures = figures;
-      }
-    });
+    parallel_for(count, context_.num_threads, [&](std::size_t i, std::size_t) { refine(hypotheses[i]); });
+  }
+
+  void refine(Hypothesis& one) const {
+    const PoseEstimate refined = (*refiner_)(one.target_from_source.pose);
+    one.target_from_source.covariance = refined.covariance;
+    if (one.proposed && !options_.refine) {
+      return;  // stays where the method put it; how well the walls fix it is asked all the same
+    }
+    const Figures figures = evaluator_.wall_figures(refined.pose);
+    if (!inside(to_local(refined.pose, request_.target, request_.source), window_of(request_))) {
+      return;
+    }
+    // Within its tolerance the evidence says little: there the refinement knows better. Where they clearly disagree,
+    // little agrees at all, and the evidence is what is judged by.
+    if (figures.evidence_m >= kEvidenceKept * one.figures.evidence_m) {
+      one.target_from_source.pose = refined.pose;
+      one.figures = figures;
+    }
+  }
+
+  void evaluate_fully(Hypothesis& one) const {
+    one.figures = evaluator_.figures(one.target_from_source.pose, context_.num_threads);
   }
 
   void judge_all() {
@@ -219,11 +223,18 @@ class Search {
     listed = distinct(hypotheses_, request_.source.centre_in_map(), options_.verdict,
                       std::max(kCompared, static_cast<std::size_t>(options_.hypotheses)));
     if (!listed.empty()) {
-      listed.front().figures = evaluator_.figures(listed.front().target_from_source.pose, context_.num_threads);
+      evaluate_fully(listed.front());
       parallel_for(std::min(listed.size(), kCompared) - 1, context_.num_threads, [&](std::size_t i, std::size_t) {
         Hypothesis& rival = listed[i + 1];
         rival.figures = evaluator_.rival_figures(rival.target_from_source.pose);
       });
+      if (const auto better = static_cast<std::ptrdiff_t>(far_more_plausible(listed, options_.verdict)); better > 0) {
+        std::rotate(listed.begin(), listed.begin() + better, listed.begin() + better + 1);
+        if (!listed.front().target_from_source.covariance) {
+          refine(listed.front());
+        }
+        evaluate_fully(listed.front());
+      }
       if (background_.random.poses == 0) {
         background_.random = evaluator_.random_level(context_.seed, context_.num_threads);
       }

@@ -95,6 +95,16 @@ bool bends_into(const Figures& one, const Figures& best) {
   return same_m > 0.5 * all_m;
 }
 
+/// What another pose has more than the best one; none: it is no rival.
+std::optional<RivalFigures> rival_figures(const Figures& f, const Figures& best) {
+  if (f.evidence_m <= 0 || bends_into(f, best)) {
+    return std::nullopt;
+  }
+  return RivalFigures{.log_conflict = log_conflict(f) - log_conflict(best),
+                      .elastic_gain = elastic_gain(f) - elastic_gain(best),
+                      .log_overlap_share = log_overlap_share(f) - log_overlap_share(best)};
+}
+
 /// The pose whose doubt weighs most, and all of them.
 struct Rivals {
   std::vector<RivalFigures> figures;
@@ -104,14 +114,12 @@ struct Rivals {
     const Figures& best = ranked.front().figures;
     double most = 0;
     for (std::size_t i = 1; i < std::min(ranked.size(), kCompared); ++i) {
-      const Figures& f = ranked[i].figures;
-      if (f.evidence_m <= 0 || bends_into(f, best)) {
+      const std::optional<RivalFigures> rival = rival_figures(ranked[i].figures, best);
+      if (!rival) {
         continue;
       }
-      figures.push_back({.log_conflict = log_conflict(f) - log_conflict(best),
-                         .elastic_gain = elastic_gain(f) - elastic_gain(best),
-                         .log_overlap_share = log_overlap_share(f) - log_overlap_share(best)});
-      if (const double here = plausibility(figures.back(), weights); here > most) {
+      figures.push_back(*rival);
+      if (const double here = plausibility(*rival, weights); here > most) {
         most = here;
         most_plausible = &ranked[i];
       }
@@ -282,6 +290,23 @@ std::size_t strongest_rival(const std::vector<Hypothesis>& ranked) {
     }
   }
   return rival;
+}
+
+std::size_t far_more_plausible(const std::vector<Hypothesis>& ranked, const VerdictOptions& o) {
+  constexpr double kFarMore = 3;  // times
+  std::size_t found = 0;
+  double most = kFarMore;
+  for (std::size_t i = 1; i < std::min(ranked.size(), kCompared); ++i) {
+    const std::optional<RivalFigures> rival = rival_figures(ranked[i].figures, ranked.front().figures);
+    if (!rival || !ranked[i].proposed) {
+      continue;
+    }
+    if (const double here = plausibility(*rival, o.weights.per_rival); here > most) {
+      most = here;
+      found = i;
+    }
+  }
+  return found;
 }
 
 Verdict judge(const std::vector<Hypothesis>& ranked, const Background& background, const VerdictOptions& o) {

@@ -95,7 +95,11 @@ struct Background {
 /// The index of the hypothesis other than the first that has the most evidence; ranked.size() where there is none.
 [[nodiscard]] std::size_t strongest_rival(const std::vector<Hypothesis>& ranked);
 
-/// @param ranked  the hypothesis to judge, then the others, most support first; no two closer than the verdict's
+/// The index of the pose that a method put forward and that is far more plausible than the first, as rivals are
+/// weighed; 0 where there is none. Support ranks well what overlaps alike; it is slow to believe that a map is bent.
+[[nodiscard]] std::size_t far_more_plausible(const std::vector<Hypothesis>& ranked, const VerdictOptions& options);
+
+/// @param ranked  the hypothesis to judge, then the others; no two closer than the verdict's
 ///                distinct_m and distinct_deg
 [[nodiscard]] Verdict judge(const std::vector<Hypothesis>& ranked, const Background& background,
                             const VerdictOptions& options);

@@ -278,6 +278,29 @@ TEST(Pipeline, ListsDistinctHypothesesBestFirst) {
   EXPECT_GT(alignment.verdict.lead, 0.5);
 }
 
+TEST(Pipeline, PutsFirstWhatIsFarMorePlausibleAsRivalsAreWeighed) {
+  const FlatGrids flat;
+  const Pose2 turned_round =
+      inverse(flat.target_view.place_from_map) * Pose2{12, 8, kPi} * flat.source_view.place_from_map;
+  PipelineOptions options;
+  options.refined_candidates = 1;         // the one that comes first by its support
+  options.evaluator.conflict_weight = 0;  // so that the other one has evidence, too
+  const Alignment by_support = align(flat.input(), Told({flat.truth, turned_round}), options, {});
+  ASSERT_EQ(by_support.hypotheses.size(), 2U);
+  EXPECT_LT(flat.error(by_support.hypotheses[0].target_from_source.pose).distance_m, 0.1);
+  EXPECT_FALSE(by_support.hypotheses[1].target_from_source.covariance);
+  // As if conflict made a pose plausible.
+  options.verdict.weights.per_rival = {.log_conflict = 3, .elastic_gain = 0, .log_overlap_share = 0};
+  const Alignment put_first = align(flat.input(), Told({flat.truth, turned_round}), options, {});
+  ASSERT_EQ(put_first.hypotheses.size(), 2U);
+  const Hypothesis& first = put_first.hypotheses[0];
+  EXPECT_GT(flat.error(first.target_from_source.pose).distance_m, 0.5);
+  EXPECT_TRUE(first.target_from_source.covariance);
+  EXPECT_GT(first.figures.psi_cells, 0);  // all figures
+  EXPECT_LT(flat.error(put_first.hypotheses[1].target_from_source.pose).distance_m, 0.1);
+  EXPECT_NE(put_first.outcome, Outcome::kMerged);
+}
+
 TEST(Pipeline, WeighsTheRivalEvenWhereOnlyOneHypothesisIsListed) {
   // Half a corridor, seen twice: to slide it or to turn it round changes nothing.
   const OccupancyGrid corridor = drawn(Place::kCorridor, {.place_from_map = {}, .from_x_m = 0, .to_x_m = 30});

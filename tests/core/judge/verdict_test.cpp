@@ -482,6 +482,27 @@ TEST(Rivals, APoseThatBendsIntoTheBestOneIsNone) {
   }
 }
 
+TEST(Rivals, OneThatIsFarMorePlausibleShouldHaveBeenFirst) {
+  VerdictOptions options;
+  options.weights.per_rival = {.log_conflict = 0, .elastic_gain = 0, .log_overlap_share = 1};
+  const auto overlapping = [](double share) {
+    Hypothesis one = hypothesis(60, 2);
+    one.figures.overlap_share = share;
+    return one;
+  };
+  EXPECT_EQ(far_more_plausible({}, options), 0U);
+  EXPECT_EQ(far_more_plausible({overlapping(0.1)}, options), 0U);
+  EXPECT_EQ(far_more_plausible({overlapping(0.1), overlapping(0.29)}, options), 0U);  // 2.9 times
+  EXPECT_EQ(far_more_plausible({overlapping(0.1), overlapping(0.35), overlapping(0.5), overlapping(0.4)}, options), 2U);
+  Hypothesis found = overlapping(0.5);
+  found.proposed = false;  // the pipeline's own is no method's answer
+  EXPECT_EQ(far_more_plausible({overlapping(0.1), found, overlapping(0.4)}, options), 2U);
+  Hypothesis first = overlapping(0.1);
+  Hypothesis bending = overlapping(0.5);
+  first.figures.elastic_layout = bending.figures.elastic_layout = {{0, {1, 1}, 9}};
+  EXPECT_EQ(far_more_plausible({first, bending}, options), 0U);
+}
+
 TEST(Rivals, ThoseFarDownTheListAreNotAskedFor) {
   std::vector<Hypothesis> ranked(kCompared + 5, hypothesis(10, 0.5));
   ranked.front() = hypothesis(80, 1);
