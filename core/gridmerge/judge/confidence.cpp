@@ -13,6 +13,7 @@ using F = ConfidenceFigures;
 constexpr std::array kTerms = {
     ConfidenceTerm{"log_rivals", &F::log_rivals, "natural logarithm of 1 and the other poses' plausibilities"},
     ConfidenceTerm{"spotless_rival", &F::spotless_rival, "unit of the evidence share of the strongest spotless rival"},
+    ConfidenceTerm{"outranked", &F::outranked, "pose that has less support than another one of the method's"},
     ConfidenceTerm{"decoy_doubt", &F::decoy_doubt,
                    "unit that the logarithm of how much better the maps fit than in a mirror lacks of 0.5"},
     ConfidenceTerm{"log_deviations", &F::log_deviations, "natural logarithm of the deviations above random poses"},

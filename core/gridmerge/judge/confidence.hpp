@@ -13,7 +13,8 @@ namespace gridmerge {
 struct ConfidenceFigures {
   // Beside the other poses.
   double log_rivals = 0;      ///< gridmerge::log_rivals of the other poses
-  double spotless_rival = 0;  ///< evidence of the strongest other pose with less than 3 % conflict, as a share
+  double spotless_rival = 0;  ///< evidence of the strongest other pose with less than 3 % conflict, as a share to 1
+  double outranked = 0;       ///< 1 where another pose of the method's has more support (far_more_plausible)
   double decoy_doubt = 0;     ///< what DecoyLevel::log_ratio lacks of 0.5
   double log_deviations = 0;  ///< ln of how many standard deviations above random poses, at least 0.1
   // Walls in free space.

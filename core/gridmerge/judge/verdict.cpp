@@ -96,7 +96,7 @@ bool bends_into(const Figures& one, const Figures& best) {
 }
 
 /// What another pose has more than the best one; none: it is no rival.
-std::optional<RivalFigures> rival_figures(const Figures& f, const Figures& best) {
+std::optional<RivalFigures> as_rival(const Figures& f, const Figures& best) {
   if (f.evidence_m <= 0 || bends_into(f, best)) {
     return std::nullopt;
   }
@@ -114,7 +114,7 @@ struct Rivals {
     const Figures& best = ranked.front().figures;
     double most = 0;
     for (std::size_t i = 1; i < std::min(ranked.size(), kCompared); ++i) {
-      const std::optional<RivalFigures> rival = rival_figures(ranked[i].figures, best);
+      const std::optional<RivalFigures> rival = as_rival(ranked[i].figures, best);
       if (!rival) {
         continue;
       }
@@ -132,9 +132,13 @@ ConfidenceFigures rivalled_figures(ConfidenceFigures c, const std::vector<Hypoth
   constexpr double kSpotless = 0.03;
   const double best_m = std::max(1e-6, ranked.front().figures.evidence_m);
   c.log_rivals = log_rivals;
+  const bool outranked = std::any_of(ranked.begin() + 1, ranked.end(), [&](const Hypothesis& other) {
+    return other.proposed && other.figures.support_m > ranked.front().figures.support_m;
+  });
+  c.outranked = outranked ? 1 : 0;
   for (std::size_t i = 1; i < ranked.size(); ++i) {
     if (ranked[i].figures.conflict_share < kSpotless) {
-      c.spotless_rival = std::max(c.spotless_rival, ranked[i].figures.evidence_m / best_m);
+      c.spotless_rival = std::max(c.spotless_rival, std::min(1.0, ranked[i].figures.evidence_m / best_m));
     }
   }
   return c;
@@ -215,19 +219,20 @@ double VerdictOptions::needed_confidence() const {
 
 // configs/learned/verdict.yaml; a test holds the two together.
 ConfidenceWeights VerdictOptions::learned_weights() {
-  return {.bias = 5.6973,
-          .per = {.log_rivals = -2.8911,
-                  .spotless_rival = -2.4814,
-                  .decoy_doubt = -3.2612,
-                  .log_deviations = -1.8882,
-                  .log_both_far = -0.8597,
-                  .furniture = -3.0444,
-                  .both_furniture = -5.7658,
-                  .log_elastic_evidence = 1.08,
-                  .log_overlap_share = 1.0717,
-                  .log_weak = 1.6389,
-                  .weak_direction = -2.5741},
-          .per_rival = {.log_conflict = -0.9871, .elastic_gain = 12.6428, .log_overlap_share = 1.1834}};
+  return {.bias = 5.0044,
+          .per = {.log_rivals = -2.9008,
+                  .spotless_rival = -2.6621,
+                  .outranked = -1.732,
+                  .decoy_doubt = -3.3722,
+                  .log_deviations = -1.7142,
+                  .log_both_far = -0.9135,
+                  .furniture = -3.0178,
+                  .both_furniture = -5.1685,
+                  .log_elastic_evidence = 1.0779,
+                  .log_overlap_share = 0.9851,
+                  .log_weak = 1.5855,
+                  .weak_direction = -2.4826},
+          .per_rival = {.log_conflict = -0.9823, .elastic_gain = 11.9339, .log_overlap_share = 1.1685}};
 }
 
 void VerdictOptions::describe(OptionList& list) {
@@ -293,15 +298,16 @@ std::size_t strongest_rival(const std::vector<Hypothesis>& ranked) {
 }
 
 std::size_t far_more_plausible(const std::vector<Hypothesis>& ranked, const VerdictOptions& o) {
-  constexpr double kFarMore = 3;  // times
+  constexpr double kFarMore = 3;          // times
+  constexpr double kEvidenceShare = 0.5;  // of the first one's: a pose with little of anything conflicts little, too
   std::size_t found = 0;
   double most = kFarMore;
   for (std::size_t i = 1; i < std::min(ranked.size(), kCompared); ++i) {
-    const std::optional<RivalFigures> rival = rival_figures(ranked[i].figures, ranked.front().figures);
-    if (!rival || !ranked[i].proposed) {
-      continue;
-    }
-    if (const double here = plausibility(*rival, o.weights.per_rival); here > most) {
+    const Figures& first = ranked.front().figures;
+    const Figures& other = ranked[i].figures;
+    const std::optional<RivalFigures> rival = as_rival(other, first);
+    const bool may = ranked[i].proposed && other.elastic_evidence_m >= kEvidenceShare * first.elastic_evidence_m;
+    if (const double here = rival && may ? plausibility(*rival, o.weights.per_rival) : 0; here > most) {
       most = here;
       found = i;
     }

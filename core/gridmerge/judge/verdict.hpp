@@ -96,7 +96,8 @@ struct Background {
 [[nodiscard]] std::size_t strongest_rival(const std::vector<Hypothesis>& ranked);
 
 /// The index of the pose that a method put forward and that is far more plausible than the first, as rivals are
-/// weighed; 0 where there is none. Support ranks well what overlaps alike; it is slow to believe that a map is bent.
+/// weighed, with half of its evidence or more where the maps may bend; 0 where there is none. Support ranks well what
+/// overlaps alike; it is slow to believe that a map is bent.
 [[nodiscard]] std::size_t far_more_plausible(const std::vector<Hypothesis>& ranked, const VerdictOptions& options);
 
 /// @param ranked  the hypothesis to judge, then the others; no two closer than the verdict's

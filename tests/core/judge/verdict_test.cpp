@@ -497,10 +497,29 @@ TEST(Rivals, OneThatIsFarMorePlausibleShouldHaveBeenFirst) {
   Hypothesis found = overlapping(0.5);
   found.proposed = false;  // the pipeline's own is no method's answer
   EXPECT_EQ(far_more_plausible({overlapping(0.1), found, overlapping(0.4)}, options), 2U);
+  Hypothesis poor = overlapping(0.5);
+  poor.figures.elastic_evidence_m *= 0.45;
+  EXPECT_EQ(far_more_plausible({overlapping(0.1), poor}, options), 0U);
   Hypothesis first = overlapping(0.1);
   Hypothesis bending = overlapping(0.5);
   first.figures.elastic_layout = bending.figures.elastic_layout = {{0, {1, 1}, 9}};
   EXPECT_EQ(far_more_plausible({first, bending}, options), 0U);
+}
+
+/// It was put first for its plausibility, not for its support: that is a doubt.
+TEST(Rivals, AMethodsOtherPoseWithMoreSupportIsADoubt) {
+  Hypothesis best = hypothesis(60, 2);
+  best.figures.support_m = 40;
+  Hypothesis other = hypothesis(50, 3);
+  const auto outranked = [&](double support_m, bool proposed) {
+    other.figures.support_m = support_m;
+    other.proposed = proposed;
+    return judged({best, hypothesis(20, 3), other}, kChance, {}).figures.outranked;
+  };
+  EXPECT_EQ(outranked(39, true), 0);
+  EXPECT_EQ(outranked(41, true), 1);
+  EXPECT_EQ(outranked(41, false), 0);  // the pipeline's own is no method's answer
+  EXPECT_LT(VerdictOptions::learned_weights().per.outranked, 0);
 }
 
 TEST(Rivals, ThoseFarDownTheListAreNotAskedFor) {
