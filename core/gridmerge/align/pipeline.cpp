@@ -201,10 +201,10 @@ class Search {
     if (one.proposed && !options_.refine) {
       return;  // stays where the method put it; how well the walls fix it is asked all the same
     }
-    const Figures figures = evaluator_.wall_figures(refined.pose);
     if (!inside(to_local(refined.pose, request_.target, request_.source), window_of(request_))) {
       return;
     }
+    const Figures figures = evaluator_.wall_figures(refined.pose);
     // Within its tolerance the evidence says little: there the refinement knows better. Where they clearly disagree,
     // little agrees at all, and the evidence is what is judged by.
     if (figures.evidence_m >= kEvidenceKept * one.figures.evidence_m) {

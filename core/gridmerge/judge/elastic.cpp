@@ -20,6 +20,7 @@ constexpr double kLeastWalls = 1;            // [m] of a patch that counts
 constexpr double kLeastSaid = 0.05;          // [m] of others, by a patch without walls or fittings that fit
 constexpr std::size_t kSeeds = 2;            // patches from which the others are laid
 constexpr double kSeedsApart = 12;           // [m]
+static_assert(2 * WallPatch::kMostWalls <= 255, "PatchGround counts half walls in bytes");
 
 /// Where a patch went: its centre by so many cells of the fixed map, and turned about it.
 struct Bend {
@@ -146,22 +147,36 @@ class Laid {
   std::array<std::size_t, kParts> ends_{};
 };
 
-/// Lays patches on the fixed map.
-class Layer {
- public:
-  explicit Layer(const SidedMap& fixed) : ground_(fixed.ground), level_(fixed.map->level(0)) {
+/// How far off, in steps.
+struct Place {
+  int columns = 0;
+  int rows = 0;
+
+  [[nodiscard]] int square() const { return columns * columns + rows * rows; }
+};
+
+/// The nearest first: of equally good ones it is taken.
+const std::vector<Place>& places_in_reach() {
+  static const std::vector<Place> all = [] {
+    std::vector<Place> places;
     for (int rows = -kReach; rows <= kReach; ++rows) {
       for (int columns = -kReach; columns <= kReach; ++columns) {
-        if (columns * columns + rows * rows <= kReach * kReach) {
-          places_.push_back({columns, rows});
+        if (const Place place{columns, rows}; place.square() <= kReach * kReach) {
+          places.push_back(place);
         }
       }
     }
-    // The shortest first: of equal ones it is taken.
-    std::stable_sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
-      return a.columns * a.columns + a.rows * a.rows < b.columns * b.columns + b.rows * b.rows;
-    });
-  }
+    std::stable_sort(places.begin(), places.end(),
+                     [](const Place& a, const Place& b) { return a.square() < b.square(); });
+    return places;
+  }();
+  return all;
+}
+
+/// Lays patches on the fixed map.
+class Layer {
+ public:
+  explicit Layer(const SidedMap& fixed) : ground_(fixed.ground), level_(fixed.map->level(0)) {}
 
   [[nodiscard]] PatchMet met(const Patch& patch, const Bend& bend) {
     laid_.lay(ground_, patch, bend);
@@ -190,7 +205,7 @@ class Layer {
       tallies[part] = ground_.around(laid_.of(part));
     }
     const int step = ground_.step_cells();
-    for (const Place& place : places_) {
+    for (const Place& place : places_in_reach()) {
       PatchMet here;
       for (std::size_t part = 0; part < kParts; ++part) {
         here.parts[part] = tallies[part].at(static_cast<std::size_t>(place.rows + kReach),
@@ -221,14 +236,8 @@ class Layer {
   [[nodiscard]] double metres(int columns, int rows) const { return level_.resolution_m * std::hypot(columns, rows); }
 
  private:
-  struct Place {
-    int columns = 0;  ///< [steps]
-    int rows = 0;
-  };
-
   const PatchGround& ground_;
   const MapLevel& level_;
-  std::vector<Place> places_;
   Laid laid_;  ///< what is laid just now
 };
 
@@ -373,10 +382,10 @@ ElasticMeeting meet_elastically(const SidedMap& fixed, const SidedMap& moving, c
   ElasticMeeting best;
   double most_m = -std::numeric_limits<double>::infinity();
   for (const std::size_t seed : seeds(layer, patches)) {
-    const ElasticMeeting meeting = layout.from(seed);
+    ElasticMeeting meeting = layout.from(seed);
     if (const double gain_m = meeting.same_side_m - meeting.in_free_m; gain_m > most_m) {
       most_m = gain_m;
-      best = meeting;
+      best = std::move(meeting);
     }
   }
   return best;

@@ -13,6 +13,10 @@
 namespace gridmerge {
 namespace {
 
+/// What a wall can meet: as in meeting_cells.hpp, all sides as one.
+constexpr std::size_t kSides = meets::kFarFree + 1;
+constexpr std::size_t kMeetings = kSides + 1;
+
 Point2f cell_centre(const MapLevel& level, int column, int row) {
   return {static_cast<float>(level.lower_left.x_m + (column + 0.5) * level.resolution_m),
           static_cast<float>(level.lower_left.y_m + (row + 0.5) * level.resolution_m)};
@@ -151,14 +155,6 @@ Evaluator::Evaluator(const PreparedMap& target, const PreparedMap& source, Evalu
       num_threads, [&] { target_ = sided_map(target, options_.tolerance_m, options_.max_points); },
       [&] { source_ = sided_map(source, options_.tolerance_m, options_.max_points); });
 }
-
-namespace {
-
-/// Those of meeting_cells.hpp, all sides as one.
-constexpr std::size_t kSides = meets::kFarFree + 1;
-constexpr std::size_t kMeetings = kSides + 1;
-
-}  // namespace
 
 WallMeeting Evaluator::meet(const SidedMap& fixed, const SidedMap& moving, const Pose2& fixed_from_moving,
                             std::size_t every) const {

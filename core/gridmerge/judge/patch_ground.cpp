@@ -77,7 +77,7 @@ PatchGround::Tally PatchGround::around(std::span<const Spot> spots) const {
 }
 
 Met PatchGround::met(std::span<const Spot> spots) const {
-  const std::size_t centre = static_cast<std::size_t>(margin_) * row_length_ + kSteps;
+  const std::size_t centre = to_centre();
   Met met;
   for (const Spot& spot : spots) {
     // Decided without a branch: it is asked for millions of walls.

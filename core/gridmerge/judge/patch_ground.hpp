@@ -25,7 +25,6 @@ class PatchGround {
   static constexpr int kSteps = 4;
   static constexpr std::size_t kPlaces = 2 * kSteps + 1;  ///< in a row, and rows
   static constexpr std::size_t kLanes = 16;               ///< of them beyond kPlaces fill a register only
-  static constexpr std::size_t kMostSpots = 60;           ///< so that counts of half walls, with their sign, fit bytes
 
   /// A wall where a patch is laid.
   struct Spot {
@@ -69,10 +68,10 @@ class PatchGround {
   [[nodiscard]] Met met(std::span<const Spot> spots) const;
 
  private:
+  /// From the first place in a neighbourhood to that of the cell itself.
+  [[nodiscard]] std::size_t to_centre() const { return static_cast<std::size_t>(margin_) * row_length_ + kSteps; }
   /// The place of a cell itself.
-  [[nodiscard]] std::size_t centre_of(int column, int row) const {
-    return first_of(column, row) + static_cast<std::size_t>(margin_) * row_length_ + kSteps;
-  }
+  [[nodiscard]] std::size_t centre_of(int column, int row) const { return first_of(column, row) + to_centre(); }
 
   int width_ = 0;  // [cells], and so are the next five
   int height_ = 0;

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "gridmerge/base/number_text.hpp"
 
@@ -95,37 +96,28 @@ bool bends_into(const Figures& one, const Figures& best) {
   return same_m > 0.5 * all_m;
 }
 
-/// What another pose has more than the best one; none: it is no rival.
-std::optional<RivalFigures> as_rival(const Figures& f, const Figures& best) {
-  if (f.evidence_m <= 0 || bends_into(f, best)) {
-    return std::nullopt;
-  }
-  return RivalFigures{.log_conflict = log_conflict(f) - log_conflict(best),
-                      .elastic_gain = elastic_gain(f) - elastic_gain(best),
-                      .log_overlap_share = log_overlap_share(f) - log_overlap_share(best)};
-}
-
-/// The pose whose doubt weighs most, and all of them.
-struct Rivals {
-  std::vector<RivalFigures> figures;
-  const Hypothesis* most_plausible = nullptr;
-
-  Rivals(const std::vector<Hypothesis>& ranked, const RivalFigures& weights) {
-    const Figures& best = ranked.front().figures;
-    double most = 0;
-    for (std::size_t i = 1; i < std::min(ranked.size(), kCompared); ++i) {
-      const std::optional<RivalFigures> rival = as_rival(ranked[i].figures, best);
-      if (!rival) {
-        continue;
-      }
-      figures.push_back(*rival);
-      if (const double here = plausibility(*rival, weights); here > most) {
-        most = here;
-        most_plausible = &ranked[i];
-      }
-    }
-  }
+/// Another pose, and how plausible it is beside the best one.
+struct Rival {
+  const Hypothesis* pose = nullptr;
+  RivalFigures figures;
+  double plausibility = 0;
 };
+
+std::vector<Rival> rivals_of(const std::vector<Hypothesis>& ranked, const RivalFigures& weights) {
+  std::vector<Rival> rivals;
+  for (std::size_t i = 1; i < std::min(ranked.size(), kCompared); ++i) {
+    const Figures& best = ranked.front().figures;
+    const Figures& f = ranked[i].figures;
+    if (f.evidence_m <= 0 || bends_into(f, best)) {
+      continue;
+    }
+    const RivalFigures more = {.log_conflict = log_conflict(f) - log_conflict(best),
+                               .elastic_gain = elastic_gain(f) - elastic_gain(best),
+                               .log_overlap_share = log_overlap_share(f) - log_overlap_share(best)};
+    rivals.push_back({&ranked[i], more, plausibility(more, weights)});
+  }
+  return rivals;
+}
 
 /// The same beside the other poses.
 ConfidenceFigures rivalled_figures(ConfidenceFigures c, const std::vector<Hypothesis>& ranked, double log_rivals) {
@@ -302,14 +294,12 @@ std::size_t far_more_plausible(const std::vector<Hypothesis>& ranked, const Verd
   constexpr double kEvidenceShare = 0.5;  // of the first one's: a pose with little of anything conflicts little, too
   std::size_t found = 0;
   double most = kFarMore;
-  for (std::size_t i = 1; i < std::min(ranked.size(), kCompared); ++i) {
-    const Figures& first = ranked.front().figures;
-    const Figures& other = ranked[i].figures;
-    const std::optional<RivalFigures> rival = as_rival(other, first);
-    const bool may = ranked[i].proposed && other.elastic_evidence_m >= kEvidenceShare * first.elastic_evidence_m;
-    if (const double here = rival && may ? plausibility(*rival, o.weights.per_rival) : 0; here > most) {
-      most = here;
-      found = i;
+  for (const Rival& rival : rivals_of(ranked, o.weights.per_rival)) {
+    const bool may = rival.pose->proposed && rival.pose->figures.elastic_evidence_m >=
+                                                 kEvidenceShare * ranked.front().figures.elastic_evidence_m;
+    if (may && rival.plausibility > most) {
+      most = rival.plausibility;
+      found = static_cast<std::size_t>(rival.pose - ranked.data());
     }
   }
   return found;
@@ -332,8 +322,9 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
   v.deviations = random.deviation_m > 0 ? (best.evidence_m - random.mean_m) / random.deviation_m : 0;
   const std::optional<WeakDirection> weak = weak_direction(first.target_from_source, background);
   const ConfidenceFigures alone = unrivalled_figures(first, background, weak, v.deviations);
-  const Rivals rivals(ranked, o.weights.per_rival);
-  v.rivals = rivals.figures;
+  const std::vector<Rival> rivals = rivals_of(ranked, o.weights.per_rival);
+  std::transform(rivals.begin(), rivals.end(), std::back_inserter(v.rivals),
+                 [](const Rival& rival) { return rival.figures; });
   v.figures = rivalled_figures(alone, ranked, log_rivals(v.rivals, o.weights.per_rival));
   v.confidence = best.evidence_m > 0 ? confidence_of(v.figures, o.weights) : 0;
   // How sure one could be if no other pose came near: what is missing then is missing in the maps.
@@ -389,8 +380,8 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
   for (std::size_t i = 1; i < ranked.size(); ++i) {
     const Hypothesis& one = ranked[i];
     const Figures& f = one.figures;
-    if (o.min_lead > 0 && i < kCompared && !bends_into(f, best) &&
-        elastic_support_m(f) > (1 - o.min_lead) * elastic_support_m(best)) {
+    if (o.min_lead > 0 && i < kCompared && elastic_support_m(f) > (1 - o.min_lead) * elastic_support_m(best) &&
+        !bends_into(f, best)) {
       as_good.push_back(&one);
     }
     if (is_spotless(f, o) && f.evidence_m >= o.spotless_evidence_share * best.evidence_m) {
@@ -413,9 +404,11 @@ Verdict judge(const std::vector<Hypothesis>& ranked, const Background& backgroun
       doubts.push_back("the walls agree, but " + percent(best.furniture_conflict_share) +
                        " of the furniture stands where the other map is free: another storey, or much was moved; " +
                        wanted);
-    } else if (rivals.most_plausible != nullptr) {
+    } else if (!rivals.empty()) {
+      const auto most_plausible = std::max_element(
+          rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) { return a.plausibility < b.plausibility; });
       doubts.push_back("not sure enough while another pose fits as well as it does: " +
-                       in_words({rivals.most_plausible}, first) + "; " + wanted);
+                       in_words({most_plausible->pose}, first) + "; " + wanted);
     } else {
       doubts.push_back("not sure enough: " + wanted);
     }

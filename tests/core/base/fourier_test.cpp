@@ -19,14 +19,27 @@ std::vector<float> random_numbers(std::size_t count, std::uint64_t seed) {
   return numbers;
 }
 
-TEST(RealTransform, ForwardAndBackGivesTheInputTimesItsSize) {
-  for (const auto& [width, height] : {std::pair{8, 6}, {7, 5}, {12, 1}, {1, 1}}) {
-    const RealTransform transform(width, height);
-    const std::vector<float> numbers = random_numbers(transform.real_size(), 1);
-    const auto real = real_array(transform.real_size());
-    const auto spectrum = spectrum_array(transform.spectrum_size());
+/// Random numbers and their spectrum.
+struct Transformed {
+  RealTransform transform;
+  std::vector<float> numbers;
+  FourierArray<float> real;
+  FourierArray<std::complex<float>> spectrum;
+
+  Transformed(int width, int height)
+      : transform(width, height),
+        numbers(random_numbers(transform.real_size(), 1)),
+        real(real_array(transform.real_size())),
+        spectrum(spectrum_array(transform.spectrum_size())) {
     std::copy(numbers.begin(), numbers.end(), real.get());
     transform.forward(real.get(), spectrum.get());
+  }
+};
+
+TEST(RealTransform, ForwardAndBackGivesTheInputTimesItsSize) {
+  for (const auto& [width, height] : {std::pair{8, 6}, {7, 5}, {12, 1}, {1, 1}}) {
+    const Transformed of(width, height);
+    const auto& [transform, numbers, real, spectrum] = of;
     transform.backward(spectrum.get(), real.get());
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       EXPECT_NEAR(real[i] / static_cast<float>(numbers.size()), numbers[i], 1e-5) << width << " x " << height;
@@ -36,12 +49,7 @@ TEST(RealTransform, ForwardAndBackGivesTheInputTimesItsSize) {
 
 TEST(RealTransform, IsTheSumOfItsDefinition) {
   for (const auto& [width, height] : {std::pair{8, 6}, {7, 5}, {12, 1}, {1, 4}}) {
-    const RealTransform transform(width, height);
-    const std::vector<float> numbers = random_numbers(transform.real_size(), 2);
-    const auto real = real_array(transform.real_size());
-    const auto spectrum = spectrum_array(transform.spectrum_size());
-    std::copy(numbers.begin(), numbers.end(), real.get());
-    transform.forward(real.get(), spectrum.get());
+    const Transformed of(width, height);
     const int columns = width / 2 + 1;
     for (int v = 0; v < height; ++v) {
       for (int u = 0; u < columns; ++u) {
@@ -49,11 +57,11 @@ TEST(RealTransform, IsTheSumOfItsDefinition) {
         for (int y = 0; y < height; ++y) {
           for (int x = 0; x < width; ++x) {
             const double turns = static_cast<double>(u * x) / width + static_cast<double>(v * y) / height;
-            sum += std::polar(static_cast<double>(numbers[static_cast<std::size_t>(y * width + x)]),
+            sum += std::polar(static_cast<double>(of.numbers[static_cast<std::size_t>(y * width + x)]),
                               -2 * std::numbers::pi * turns);
           }
         }
-        const std::complex<float> got = spectrum[static_cast<std::size_t>(v * columns + u)];
+        const std::complex<float> got = of.spectrum[static_cast<std::size_t>(v * columns + u)];
         EXPECT_NEAR(got.real(), sum.real(), 1e-4) << width << " x " << height << ": " << u << ", " << v;
         EXPECT_NEAR(got.imag(), sum.imag(), 1e-4) << width << " x " << height << ": " << u << ", " << v;
       }
